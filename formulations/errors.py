@@ -1,0 +1,11 @@
+"""The few ways to misuse timebound. Each message is one line that names the key and the value."""
+
+from __future__ import annotations
+
+
+class InputError(ValueError):
+    """Something a person typed or wrote into a file cannot be used; commands exit with code 2."""
+
+
+class UnsupportedProblem(InputError):
+    """The problem is legal, but this family or reference has no meaning for it."""

@@ -1,0 +1,11 @@
+"""Spline families: durations -> spline through the waypoints. One file each; add yours to FAMILIES."""
+
+from __future__ import annotations
+
+from formulations.families.family import Family
+from formulations.families.four_three_four import FOUR_THREE_FOUR
+from formulations.families.three_five_three import THREE_FIVE_THREE
+
+FAMILIES: dict[str, Family] = {family.name: family for family in (THREE_FIVE_THREE, FOUR_THREE_FOUR)}
+
+__all__ = ["FAMILIES", "Family"]

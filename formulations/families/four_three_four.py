@@ -1,0 +1,85 @@
+"""4-3-...-3-4 spline: quartic ends, any number of cubics between (001 eq. 8-9).
+
+The velocities at the inner waypoints solve one diagonally dominant tridiagonal system, from equal
+accelerations on both sides; the end segments weigh 6 where inner ones weigh 4.
+"""
+
+from __future__ import annotations
+
+from typing import Any
+
+import numpy as np
+
+from formulations.families.family import Family
+from formulations.families.polynomial import compiled
+
+
+@compiled
+def joint(x: Any, t: Any, c: Any, work: Any) -> None:
+    """Coefficients of one joint on normalised time, c (n, 6), from waypoints x (n+1,), durations t (n,).
+
+    work: (2, n) scratch. Plain arithmetic alone: the same lines serve floats and CasADi symbols.
+    """
+    n = len(t)
+    ratio, v = work[0], work[1]
+    # forward sweep over the inner waypoints k = 1..n-1 (Thomas)
+    for k in range(1, n):
+        left, right = 1.0 / t[k - 1], 1.0 / t[k]
+        # quartic start piece: p''(1) = 6 v T - 12 d; cubic: p''(1) = 2 v0 T + 4 v1 T - 6 d
+        weight_left, pull_left = (6.0, 12.0) if k == 1 else (4.0, 6.0)
+        weight_right, pull_right = (6.0, 12.0) if k == n - 1 else (4.0, 6.0)
+        diagonal = weight_left * left + weight_right * right
+        pull = pull_left * (x[k] - x[k - 1]) * left * left
+        pull = pull + pull_right * (x[k + 1] - x[k]) * right * right
+        if k > 1:
+            diagonal = diagonal - 2.0 * left * ratio[k - 1]
+            pull = pull - 2.0 * left * v[k - 1]
+        ratio[k] = 2.0 * right / diagonal
+        v[k] = pull / diagonal
+    for k in range(n - 2, 0, -1):
+        v[k] = v[k] - ratio[k] * v[k + 1]
+    # first quartic: rest at s = 0 leaves s^3 and s^4
+    d, w = x[1] - x[0], v[1] * t[0]
+    c[0, 0] = x[0]
+    c[0, 3] = 4.0 * d - w
+    c[0, 4] = w - 3.0 * d
+    for k in range(1, n - 1):
+        d, w, u = x[k + 1] - x[k], v[k] * t[k], v[k + 1] * t[k]
+        c[k, 0] = x[k]
+        c[k, 1] = w
+        c[k, 2] = 3.0 * d - 2.0 * w - u
+        c[k, 3] = w + u - 2.0 * d
+    # last quartic: the mirror image, x_n - a (1 - s)^3 - b (1 - s)^4
+    d, w = x[n] - x[n - 1], v[n - 1] * t[n - 1]
+    a, b = 4.0 * d - w, w - 3.0 * d
+    c[n - 1, 0] = x[n - 1]
+    c[n - 1, 1] = 3.0 * a + 4.0 * b
+    c[n - 1, 2] = -3.0 * a - 6.0 * b
+    c[n - 1, 3] = a + 4.0 * b
+    c[n - 1, 4] = -b
+
+
+@compiled
+def population(waypoints: Any, durations: Any, out: Any) -> None:
+    """Coefficients of whole populations: (n+1, dof), (m, n) -> out (m, n, dof, 6)."""
+    work = np.zeros((2, durations.shape[1]))
+    for i in range(len(durations)):
+        for j in range(waypoints.shape[1]):
+            joint(waypoints[:, j], durations[i], out[i, :, j], work)
+
+
+def _refusal(n_segments: int) -> str | None:
+    if n_segments < 2:
+        return "4-3-4 needs at least 2 segments (3 waypoints): one quartic cannot rest at both ends"
+    return None
+
+
+FOUR_THREE_FOUR = Family(
+    name="4-3-4",
+    title="4-3-...-3-4 spline",
+    source="001 eq. 8-9",
+    joint=joint,
+    population=population,
+    degrees=lambda n_segments: (4, *(3,) * (n_segments - 2), 4),
+    refusal=_refusal,
+)

@@ -1,0 +1,342 @@
+"""The exact nonlinear program of a spline family, solved by CasADi/IPOPT from many starts.
+
+    minimise    sum_k T_k                                     over y = log T
+    subject to  |q_j^(r)(t)| <= limit_j^(r)   for every t, joint j, derivative r = 1, 2, 3
+                low_j <= q_j(t) <= high_j     for every t
+
+The constraints hold at every instant, so each is a semi-infinite one. It is posed at both ends of
+each piece and at the extremes of the current iterate, and posed again at the extremes of the
+solution until they stay where they are (exchange). Fixed sample points stall up to 0.4 % away, and
+exchange alone where the extremes wander, so near the end the posed place follows its extreme as
+the durations vary, by one Newton step on q^(r+1) inside the program: correct to second order.
+Stretching by the exact factor makes every iterate feasible, so each start ends in a verified motion.
+
+A local solver proves nothing: the best of its starts is an upper bound.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from dataclasses import dataclass
+from functools import cached_property
+
+import casadi
+import numpy as np
+
+from formulations.errors import InputError
+from formulations.families import FAMILIES, Family
+from formulations.families.polynomial import WIDTH
+from formulations.problem import Array, Problem
+from formulations.trajectory import Trajectory, Verdict, check
+
+_FIXED_EXCHANGES = 3  # rounds before the posed places follow their extremes
+_EXCHANGES = 20  # rounds of exchange before a start is given up as not converged
+_CONVERGED = 1e-10  # relative excess of the exact peaks over the posed ones
+_SHORTEST = 1e-8  # least duration of a segment, as a share of the displacement bound
+
+_IPOPT = {
+    "ipopt.print_level": 0,
+    "ipopt.sb": "yes",
+    "print_time": False,
+    "ipopt.tol": 1e-11,
+    "ipopt.acceptable_tol": 1e-9,
+    "ipopt.bound_relax_factor": 0.0,
+    "ipopt.mu_strategy": "adaptive",
+    "ipopt.max_iter": 300,
+    "error_on_fail": False,
+}
+
+
+@dataclass(frozen=True)
+class Start:
+    """One start of the local solver: where it ended and how."""
+
+    durations: Array
+    seconds: float
+    status: str
+    exchanges: int
+
+
+@dataclass(frozen=True)
+class FamilyOptimum:
+    """The best of all starts, judged by the independent check. durations: (n_segments,) [s]."""
+
+    problem: Problem
+    family: str
+    durations: Array
+    starts: tuple[Start, ...]
+
+    @property
+    def seconds(self) -> float:
+        """Total time [s]."""
+        return float(self.durations.sum())
+
+    @cached_property
+    def trajectory(self) -> Trajectory:
+        """The motion itself."""
+        return FAMILIES[self.family].trajectory(self.problem, self.durations)
+
+    @cached_property
+    def verdict(self) -> Verdict:
+        """What the independent check says of it."""
+        return check(self.problem, self.trajectory)
+
+    @property
+    def agreeing_starts(self) -> int:
+        """Number of starts that ended within 1e-7 of the best."""
+        return sum(start.seconds <= self.seconds * (1.0 + 1e-7) for start in self.starts)
+
+
+class NoFeasibleMotion(RuntimeError):
+    """No start of the solver ended in a motion that keeps the position limits."""
+
+
+def family_optimum(
+    problem: Problem,
+    *,
+    family: str | None = None,
+    random_starts: int = 8,
+    seed: int = 0,
+    progress: Callable[[float], None] | None = None,
+) -> FamilyOptimum:
+    """Shortest total time of a family's splines for durations shared by all joints.
+
+    family: the problem's own if left out. Raises UnsupportedProblem where the family has no spline,
+    NoFeasibleMotion if no start ends feasible (position limits only; all others yield to a stretch).
+    """
+    chosen = FAMILIES[family or problem.family]
+    chosen.require(problem)
+    if not problem.moving_joints:
+        durations = np.full(problem.n_segments, _SHORTEST)
+        still = Start(durations, float(durations.sum()), "nothing moves", 0)
+        return FamilyOptimum(problem, chosen.name, durations, (still,))
+    program = _Program(problem, chosen)
+    starts = []
+    guesses = _guesses(problem, random_starts, seed)
+    for index, guess in enumerate(guesses):
+        starts.append(program.solve(guess))
+        if progress is not None:
+            progress((index + 1) / len(guesses))
+    best = min(starts, key=lambda start: start.seconds)
+    if not np.isfinite(best.seconds):
+        raise NoFeasibleMotion(
+            f"none of {len(starts)} starts ended in a {chosen.name} spline that keeps the position "
+            f"limits; last status: {starts[-1].status}"
+        )
+    return FamilyOptimum(problem, chosen.name, best.durations, tuple(starts))
+
+
+def each_joint_alone(
+    problem: Problem, *, random_starts: int = 8, seed: int = 0
+) -> tuple[FamilyOptimum | None, ...]:
+    """The optimum of every joint by itself, as the papers plan; None for joints that do not move."""
+    return tuple(
+        family_optimum(problem.joint(j), random_starts=random_starts, seed=seed)
+        if j in problem.moving_joints
+        else None
+        for j in range(problem.dof)
+    )
+
+
+@dataclass(frozen=True)
+class LongestSegment:
+    """The papers' rule (000 sec. 2.2; 001 sec. 3; 002 sec. 5.2): longest time per segment.
+
+    claimed: (n_segments,) [s], the durations the rule gives. stretch: the factor they then need to
+    keep the limits. Above 1 the rule's own motion breaks them.
+    """
+
+    claimed: Array
+    stretch: float
+    position_excess: float
+
+    @property
+    def durations(self) -> Array:
+        """Durations after the stretch, (n_segments,) [s]."""
+        return self.claimed * self.stretch
+
+
+def longest_segment(problem: Problem, per_joint: list[Array]) -> LongestSegment:
+    """Apply the rule to the durations of single joints, each (n_segments,) [s].
+
+    The result is shrunk too where the rule is needlessly slow: stretch can lie below 1.
+    """
+    if not per_joint:
+        raise InputError("longest_segment: no joint moves")
+    claimed = np.max(per_joint, axis=0)
+    chosen = FAMILIES[problem.family]
+    return LongestSegment(
+        claimed=claimed,
+        stretch=float(chosen.stretch(problem, claimed[None])[0]),
+        position_excess=float(chosen.position_excess(problem, claimed[None])[0]),
+    )
+
+
+def shortest_segments(problem: Problem) -> Array:
+    """Lower bounds on each duration from displacement and limits alone, (n_segments,) [s], > 0.
+
+    |d| <= V T, and rest to rest is not even asked for: a scale for starts and boxes, not a tight bound.
+    """
+    d = np.abs(problem.displacements)
+    limits = problem.limits
+    each = np.maximum.reduce(
+        [d / limits.velocity, np.sqrt(d / limits.acceleration), np.cbrt(d / limits.jerk)]
+    ).max(axis=1)
+    return np.maximum(each, _SHORTEST * max(float(each.sum()), 1e-300))
+
+
+def _guesses(problem: Problem, random_starts: int, seed: int) -> list[Array]:
+    """Starts: displacement times, their geometric mean with the longest, and random ratios."""
+    scale = shortest_segments(problem)
+    scale = np.maximum(scale, 1e-2 * scale.max())
+    rng = np.random.default_rng(seed)
+    ratios = rng.uniform(np.log(0.1), np.log(10.0), (random_starts, len(scale)))
+    return [scale, np.sqrt(scale * scale.max()), *(scale * np.exp(row) for row in ratios)]
+
+
+class _Program:
+    """The NLP of one problem, built once; the places where constraints are posed are parameters."""
+
+    def __init__(self, problem: Problem, family: Family) -> None:
+        self.problem, self.family = problem, family
+        degrees = family.degrees(problem.n_segments)
+        joints = problem.moving_joints
+        limits = problem.limits.derivatives
+        y = casadi.SX.sym("y", problem.n_segments)
+        t = casadi.exp(y)
+        coefficients = {j: _symbolic(family, problem.waypoints[:, j], t) for j in joints}
+
+        # rows: value of derivative r of joint j on piece k at s, over its limit, within [-1, 1]
+        rows, places, lower, upper = [], [], [], []
+        self.posed: list[tuple[int, int, int, int]] = []  # joint, piece, order, extreme or -1, -2
+        for j in joints:
+            for k, degree in enumerate(degrees):
+                polynomial = coefficients[j][k][: degree + 1]
+                for order in range(4):
+                    if order == 0:
+                        low, high = problem.position_bounds[j]
+                        if not (np.isfinite(low) or np.isfinite(high)):
+                            continue
+                        scale = max(float(np.ptp(problem.waypoints[:, j])), 1e-12)
+                        origin = float(problem.waypoints[k, j])
+                        low, high = (low - origin) / scale, (high - origin) / scale
+                    else:
+                        if not np.isfinite(limits[order - 1, j]):
+                            continue
+                        scale, origin, low, high = float(limits[order - 1, j]), 0.0, -1.0, 1.0
+                    low, high = float(low), float(high)
+                    value = _derivative(polynomial, order)
+                    # the ends of a piece, where they are not waypoints, and the inner extremes
+                    ends = [] if order == 0 else [-1, -2]
+                    for which in [*ends, *range(len(value) - 2)]:
+                        s, follow = casadi.SX.sym("s"), casadi.SX.sym("follow")
+                        place = s
+                        if which >= 0:
+                            slope, bend = _derivative(value, 1), _derivative(value, 2)
+                            curvature = casadi.if_else(follow > 0, _at(bend, s), 1.0)
+                            place = s - follow * _at(slope, s) / curvature
+                        rows.append((_at(value, place) / t[k] ** order - origin) / scale)
+                        places.append(casadi.vertcat(s, follow))
+                        lower.append(low)
+                        upper.append(high)
+                        self.posed.append((j, k, order, which))
+        self.lower, self.upper = np.array(lower), np.array(upper)
+        nlp = {
+            "x": y,
+            "p": casadi.vertcat(*places),
+            "f": casadi.sum1(t) / float(shortest_segments(problem).sum()),
+            "g": casadi.vertcat(*rows),
+        }
+        self.solver = casadi.nlpsol("family", "ipopt", nlp, _IPOPT)
+        shortest = shortest_segments(problem)
+        self.floor = np.log(_SHORTEST * shortest.sum()) * np.ones(problem.n_segments)
+
+    def solve(self, guess: Array) -> Start:
+        """Exchange from one start; the result is stretched to exact feasibility."""
+        durations = self._feasible(guess)
+        best, best_seconds = durations, np.inf
+        status = "not converged"
+        for exchange in range(1, _EXCHANGES + 1):
+            answer = self.solver(
+                x0=np.log(durations),
+                p=self._extremes(durations, follow=exchange > _FIXED_EXCHANGES),
+                lbg=self.lower,
+                ubg=self.upper,
+                lbx=self.floor,
+                ubx=np.log(durations.sum() * 10.0),
+            )
+            solved = np.exp(np.asarray(answer["x"]).ravel())
+            outcome = str(self.solver.stats()["return_status"])
+            if not np.isfinite(solved).all():
+                return Start(best, best_seconds, outcome, exchange)
+            durations = self._feasible(solved)
+            seconds = float(durations.sum())
+            kept = float(self.family.position_excess(self.problem, durations[None])[0])
+            if kept <= 1e-10 and seconds < best_seconds:
+                best, best_seconds = durations, seconds
+            posed_was_exact = abs(seconds / float(solved.sum()) - 1.0) <= _CONVERGED
+            if posed_was_exact and kept <= 1e-10:
+                status = "ok" if outcome == "Solve_Succeeded" else outcome
+                break
+            status = f"not converged ({outcome})"
+        return Start(best, best_seconds, status, exchange)
+
+    def _feasible(self, durations: Array) -> Array:
+        return durations * self.family.stretch(self.problem, durations[None])[0]
+
+    def _extremes(self, durations: Array, follow: bool) -> Array:
+        """Where the rows are posed: normalised time, and whether it follows its extreme."""
+        spline = self.family.coefficients(self.problem, durations[None])[0]
+        degrees = self.family.degrees(self.problem.n_segments)
+        found: dict[tuple[int, int, int], Array] = {}
+        places = np.zeros((len(self.posed), 2))
+        for row, (j, k, order, which) in enumerate(self.posed):
+            if which < 0:
+                places[row, 0] = which + 2.0
+                continue
+            key = (j, k, order)
+            if key not in found:
+                value = np.polynomial.Polynomial(spline[k, j, : degrees[k] + 1]).deriv(order)
+                found[key] = _inner_extremes(value)
+            places[row] = found[key][which]
+        places[:, 1] *= follow
+        return places.ravel()
+
+
+def _inner_extremes(value: np.polynomial.Polynomial) -> Array:
+    """Extremes in (0, 1), (degree - 1, 2): place, and 1 if it is a true one, not a spread filler."""
+    count = len(value.coef) - 2
+    slope = value.deriv(1)
+    size = float(np.abs(slope.coef).max())
+    places = np.stack([(np.arange(count) + 1.0) / (count + 1.0), np.zeros(count)], axis=1)
+    if size > 0.0:
+        roots = slope.trim(1e-14 * size).roots()
+        inner = np.sort(roots[np.abs(roots.imag) < 1e-9].real) if len(roots) else np.empty(0)
+        inner = inner[(inner > 0.0) & (inner < 1.0)][:count]
+        places[: len(inner), 0] = inner
+        # an inflection has no curvature to follow along
+        places[: len(inner), 1] = np.abs(slope.deriv(1)(inner)) > 1e-6 * size
+    return places
+
+
+def _symbolic(family: Family, x: Array, t: casadi.SX) -> list[list[casadi.SX]]:
+    """The family's own formula run on CasADi symbols: coefficients per piece on normalised time."""
+    n = t.numel()
+    c = np.array([[0.0] * WIDTH for _ in range(n)], dtype=object)
+    work = np.array([[0.0] * n for _ in range(2)], dtype=object)
+    times = [t[k] for k in range(n)]
+    family.joint.py_func(x.tolist(), times, c, work)  # type: ignore[attr-defined]  # numba
+    return [list(row) for row in c]
+
+
+def _at(polynomial: list[casadi.SX], s: casadi.SX) -> casadi.SX:
+    value = casadi.SX(0)
+    for c in reversed(polynomial):
+        value = value * s + c
+    return value
+
+
+def _derivative(polynomial: list[casadi.SX], order: int) -> list[casadi.SX]:
+    for _ in range(order):
+        polynomial = [i * c for i, c in enumerate(polynomial)][1:]
+    return polynomial

@@ -1,0 +1,156 @@
+"""Problem files (TOML) and the shipped cases -> Problem. Every error is one line."""
+
+from __future__ import annotations
+
+import math
+import tomllib
+from importlib.resources import files
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+
+from formulations.errors import InputError
+from formulations.families import FAMILIES
+from formulations.problem import Limits, Problem
+
+CASES: tuple[str, ...] = tuple(
+    sorted(
+        entry.name.removesuffix(".toml")
+        for entry in files("formulations.cases").iterdir()
+        if entry.name.endswith(".toml")
+    )
+)
+
+_KEYS = ("name", "title", "source", "unit", "family", "waypoints", "limits")
+_LIMIT_KEYS = ("unit", "velocity", "acceleration", "jerk", "position")
+_UNITS = {"rad": 1.0, "deg": math.pi / 180.0}
+_LARGEST_FILE = 10_000_000  # bytes; a problem file is a few kilobytes
+
+
+def load(file_or_case: str | Path) -> Problem:
+    """The problem in a TOML file, or the shipped case of that name.
+
+    Raises InputError with one line that names the key, the joint and the value.
+    """
+    if str(file_or_case) in CASES:
+        text = (files("formulations.cases") / f"{file_or_case}.toml").read_text("utf-8")
+        return parse(text, where=str(file_or_case))
+    path = Path(file_or_case)
+    try:
+        if path.stat().st_size > _LARGEST_FILE:
+            raise InputError(f"{path}: larger than {_LARGEST_FILE} bytes, not a problem file")
+        text = path.read_text("utf-8")
+    except FileNotFoundError:
+        raise InputError(
+            f"{path}: no such file, and no case of that name (cases: {', '.join(CASES)})"
+        ) from None
+    except UnicodeDecodeError:
+        raise InputError(f"{path}: not a UTF-8 text file") from None
+    except (OSError, ValueError) as error:
+        raise InputError(f"{path}: cannot be read: {error}") from None
+    return parse(text, where=str(path))
+
+
+def parse(text: str, *, where: str = "problem") -> Problem:
+    """A problem from TOML text; ``where`` opens every error line."""
+    try:
+        data = tomllib.loads(text)
+    except (tomllib.TOMLDecodeError, RecursionError) as error:
+        raise InputError(f"{where}: not valid TOML: {error}") from None
+    try:
+        return _problem(data)
+    except InputError as error:
+        raise InputError(f"{where}: {error}") from None
+
+
+def _problem(data: dict[str, Any]) -> Problem:
+    _known_keys("key", data, _KEYS)
+    for key in ("waypoints", "limits"):
+        if key not in data:
+            raise InputError(f"{key}: missing")
+    for key in ("name", "title", "source"):
+        if not isinstance(data.get(key, ""), str):
+            raise InputError(f"{key}: expected text, got {data[key]!r}")
+    unit = _unit("unit", data.get("unit", "rad"))
+    family = data.get("family")
+    if family is not None and (not isinstance(family, str) or family not in FAMILIES):
+        raise InputError(f"family: {family!r:.40} is not one of {', '.join(FAMILIES)}")
+
+    waypoints = _matrix("waypoints", data["waypoints"])
+    dof = waypoints.shape[1]
+    table = data["limits"]
+    if not isinstance(table, dict):
+        raise InputError(f"limits: expected a table, got {table!r}")
+    _known_keys("limits", table, _LIMIT_KEYS)
+    if "velocity" not in table:
+        raise InputError("limits.velocity: missing")
+    limit_unit = _unit("limits.unit", table.get("unit", unit))
+    scale = _UNITS[limit_unit]
+    limits: dict[str, Any] = {}
+    for key in ("velocity", "acceleration", "jerk"):
+        if key in table:
+            limits[key] = _limit(f"limits.{key}", table[key], dof) * scale
+    if "position" in table:
+        limits["position"] = _matrix("limits.position", table["position"]) * scale
+    problem = Problem.of(
+        waypoints * _UNITS[unit],
+        Limits.of(**limits, dof=dof),
+        name=data.get("name", "problem"),
+        family=family,
+        title=data.get("title", ""),
+        source=data.get("source", ""),
+        display_unit=limit_unit,
+    )
+    if family is not None:
+        FAMILIES[family].require(problem)
+    return problem
+
+
+def _unit(key: str, value: Any) -> str:
+    if not isinstance(value, str) or value not in _UNITS:
+        raise InputError(f"{key}: {value!r:.40} is not one of {', '.join(_UNITS)}")
+    return value
+
+
+def _known_keys(kind: str, table: dict[str, Any], known: tuple[str, ...]) -> None:
+    for key in table:
+        if key not in known:
+            raise InputError(f"{kind}: unknown key {key!r} (known: {', '.join(known)})")
+
+
+def _number(key: str, value: Any) -> float:
+    if isinstance(value, bool) or not isinstance(value, (int, float)):
+        raise InputError(f"{key}: expected a number, got {value!r:.60}")
+    try:
+        number = float(value)
+    except OverflowError:
+        raise InputError(f"{key}: {value!r:.40} is too large") from None
+    if not math.isfinite(number):
+        raise InputError(f"{key}: {number} is not finite (leave the key out if unlimited)")
+    return number
+
+
+def _limit(key: str, value: Any, dof: int) -> np.ndarray[Any, np.dtype[np.float64]]:
+    if not isinstance(value, list):
+        return np.full(dof, _number(key, value))
+    if len(value) != dof:
+        raise InputError(f"{key}: {len(value)} values for {dof} joints")
+    return np.array([_number(f"{key}: joint {j + 1}", entry) for j, entry in enumerate(value)])
+
+
+def _matrix(key: str, rows: Any) -> np.ndarray[Any, np.dtype[np.float64]]:
+    if not isinstance(rows, list) or not rows or not all(isinstance(row, list) for row in rows):
+        raise InputError(f"{key}: expected a list of rows, got {rows!r:.60}")
+    width = len(rows[0])
+    if width == 0:
+        raise InputError(f"{key}: row 1 is empty")
+    for index, row in enumerate(rows):
+        if len(row) != width:
+            raise InputError(f"{key}: row {index + 1} has {len(row)} values, row 1 has {width}")
+    return np.array(
+        [
+            [_number(f"{key}: row {i + 1}, joint {j + 1}", x) for j, x in enumerate(row)]
+            for i, row in enumerate(rows)
+        ]
+    )

@@ -1,0 +1,354 @@
+"""A motion as exact piecewise polynomials, and the check that judges every reported number.
+
+This file shares no code with the optimisers' kernels. Extremes come from the roots of derivatives,
+never from samples.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from functools import cached_property
+
+import numpy as np
+from numpy.typing import ArrayLike
+from scipy.interpolate import PPoly
+
+from formulations.errors import InputError
+from formulations.problem import Array, Problem
+
+TOLERANCE = 1e-9  # relative excess over a limit that still counts as keeping it
+QUANTITIES = ("position", "velocity", "acceleration", "jerk")
+UNITS = ("rad", "rad/s", "rad/s²", "rad/s³")
+
+
+@dataclass(frozen=True)
+class Extremes:
+    """Least and greatest value per piece and joint, and the times they occur.
+
+    All arrays (n_pieces, dof); times from the start of the motion [s].
+    """
+
+    low: Array
+    high: Array
+    time_low: Array
+    time_high: Array
+
+
+@dataclass(frozen=True)
+class Trajectory:
+    """Piecewise polynomial motion of all joints.
+
+    durations: (n_pieces,) [s], positive. coefficients: (n_pieces, dof, degree + 1), ascending powers
+    of the local time from 0 [rad/s^k]. passages: (n_waypoints,) times [s] at which the waypoints are
+    passed; the breakpoints if left out. Raises InputError for wrong shapes or durations.
+    """
+
+    durations: Array
+    coefficients: Array
+    passages: Array | None = None
+
+    def __post_init__(self) -> None:
+        if self.coefficients.ndim != 3 or len(self.coefficients) != len(self.durations):
+            raise InputError(
+                f"trajectory: coefficients {self.coefficients.shape} do not fit "
+                f"{len(self.durations)} durations"
+            )
+        if not (np.isfinite(self.durations).all() and (self.durations > 0.0).all()):
+            raise InputError(f"trajectory: durations must be positive, got {self.durations}")
+
+    @property
+    def dof(self) -> int:
+        """Number of joints."""
+        return int(self.coefficients.shape[1])
+
+    @cached_property
+    def breaks(self) -> Array:
+        """Breakpoints, (n_pieces + 1,) [s]."""
+        return np.concatenate([[0.0], np.cumsum(self.durations)])
+
+    @property
+    def seconds(self) -> float:
+        """Total time [s]."""
+        return float(self.breaks[-1])
+
+    @property
+    def passage_times(self) -> Array:
+        """Times at which the waypoints are passed, (n_waypoints,) [s]."""
+        return self.breaks if self.passages is None else self.passages
+
+    @cached_property
+    def _piecewise(self) -> PPoly:
+        return PPoly(np.moveaxis(self.coefficients[..., ::-1], -1, 0), self.breaks)
+
+    def at(self, times: ArrayLike, order: int = 0) -> Array:
+        """Position (order 0) or a derivative at times (...,) [s]: (..., dof)."""
+        return np.asarray(self._piecewise(np.asarray(times, dtype=np.float64), nu=order))
+
+    def sample(self, rate: float) -> tuple[Array, Array]:
+        """Times (m,) [s] at ``rate`` [1/s], the end included, and position to jerk (4, m, dof)."""
+        times = np.append(np.arange(0.0, self.seconds, 1.0 / rate), self.seconds)
+        return times, np.stack([self.at(times, order) for order in range(4)])
+
+    def stretched(self, factor: float) -> Trajectory:
+        """The same path, every duration multiplied by ``factor``."""
+        powers = factor ** -np.arange(self.coefficients.shape[2], dtype=np.float64)
+        return Trajectory(
+            self.durations * factor,
+            self.coefficients * powers,
+            None if self.passages is None else self.passages * factor,
+        )
+
+    def extremes(self, order: int) -> Extremes:
+        """Exact extremes of the derivative of the given order (0: position) on every piece."""
+        value = _differentiated(self._normalised, order)
+        candidates = np.concatenate(
+            [
+                np.broadcast_to([0.0, 1.0], (*value.shape[:2], 2)),
+                _turning_points(_differentiated(value, 1)),
+            ],
+            axis=2,
+        )
+        values = _evaluated(value, candidates) / self.durations[:, None, None] ** order
+        lowest, highest = values.argmin(axis=2)[..., None], values.argmax(axis=2)[..., None]
+        times = self.breaks[:-1, None, None] + candidates * self.durations[:, None, None]
+        return Extremes(
+            low=np.take_along_axis(values, lowest, 2)[..., 0],
+            high=np.take_along_axis(values, highest, 2)[..., 0],
+            time_low=np.take_along_axis(times, lowest, 2)[..., 0],
+            time_high=np.take_along_axis(times, highest, 2)[..., 0],
+        )
+
+    @property
+    def _normalised(self) -> Array:
+        """Coefficients on normalised time s = t / T of each piece."""
+        return self.coefficients * self.durations[:, None, None] ** np.arange(
+            self.coefficients.shape[2]
+        )
+
+    @cached_property
+    def jumps(self) -> Array:
+        """Largest jump per joint of position, velocity, acceleration at inner breaks, (3, dof)."""
+        ends = np.stack([self._edge(order, 1.0)[:-1] for order in range(3)])
+        starts = np.stack([self._edge(order, 0.0)[1:] for order in range(3)])
+        return np.abs(starts - ends).max(axis=1, initial=0.0)
+
+    def _edge(self, order: int, s: float) -> Array:
+        value = _differentiated(self._normalised, order)
+        at = np.full((*value.shape[:2], 1), s)
+        return _evaluated(value, at)[..., 0] / self.durations[:, None] ** order
+
+
+@dataclass(frozen=True)
+class Peak:
+    """The place where a motion uses most of one limit.
+
+    factor: value over limit (for position: 1 plus the excess over the allowed range).
+    stretch: factor on all durations that would just keep it; infinite for position.
+    joint and segment count from 0; time in s; value and limit in rad/s^k.
+    """
+
+    quantity: str
+    joint: int
+    segment: int
+    time: float
+    value: float
+    limit: float
+    factor: float
+    stretch: float
+
+    def __str__(self) -> str:
+        unit = UNITS[QUANTITIES.index(self.quantity)]
+        return (
+            f"{self.quantity} of joint {self.joint + 1} in segment {self.segment + 1} at "
+            f"{self.time:.4f} s: {self.value:.6g} {unit}, limit {self.limit:.6g} {unit}, "
+            f"factor {self.factor:.6g}"
+        )
+
+
+@dataclass(frozen=True)
+class Verdict:
+    """What the independent check found about one motion.
+
+    feasible: passes the waypoints, is continuous, rests at both ends and keeps every limit.
+    stretch: least factor on all durations that keeps velocity, acceleration and jerk limits.
+    peaks: the worst place per limited quantity, worst first. faults: all that is wrong, in words.
+    """
+
+    seconds: float
+    feasible: bool
+    stretch: float
+    peaks: tuple[Peak, ...]
+    faults: tuple[str, ...]
+
+    @property
+    def worst(self) -> Peak | None:
+        """The limit used most; None if nothing is limited or nothing moves."""
+        return self.peaks[0] if self.peaks else None
+
+    @property
+    def position_kept(self) -> bool:
+        """Whether the position limits are kept; no stretch can mend them."""
+        return all(p.factor <= 1.0 for p in self.peaks if p.quantity == "position")
+
+
+def check(problem: Problem, trajectory: Trajectory, *, through: bool = True) -> Verdict:
+    """Judge a motion by its exact extremes: waypoints, continuity, rest, limits.
+
+    ``through=False`` asks only for the first and last waypoint (end-to-end references).
+    """
+    faults: list[str] = []
+    if trajectory.dof != problem.dof:
+        raise InputError(f"trajectory: {trajectory.dof} joints, the problem has {problem.dof}")
+    limits = problem.limits
+
+    # waypoints
+    reach = float(np.ptp(problem.waypoints, axis=0).max())
+    tolerance = TOLERANCE * reach + 1e-13 * float(np.abs(problem.waypoints).max())
+    targets = problem.waypoints if through else problem.waypoints[[0, -1]]
+    times = trajectory.passage_times
+    if len(times) != len(targets):
+        faults.append(f"{len(times)} passage times for {len(targets)} waypoints")
+    else:
+        miss = np.abs(trajectory.at(times) - targets)
+        if miss.max() > tolerance:
+            row, joint = np.unravel_index(int(miss.argmax()), miss.shape)
+            faults.append(f"misses waypoint {row + 1}, joint {joint + 1} by {miss.max():.3g} rad")
+
+    # continuity and rest; acceleration too where jerk is limited
+    scales = [np.full(problem.dof, tolerance), TOLERANCE * limits.velocity]
+    orders = [0, 1]
+    if limits.has_jerk:
+        scales.append(TOLERANCE * np.where(np.isfinite(limits.jerk), limits.acceleration, np.inf))
+        orders.append(2)
+    for order, scale in zip(orders, scales, strict=True):
+        jump = trajectory.jumps[order]
+        if (jump > np.maximum(scale, TOLERANCE * _size(trajectory, order))).any():
+            joint = int(np.argmax(jump))
+            faults.append(f"{QUANTITIES[order]} of joint {joint + 1} jumps by {jump[joint]:.3g}")
+        if order > 0:
+            ends = np.abs(trajectory.at([0.0, trajectory.seconds], order)).max(axis=0)
+            if (ends > np.maximum(scale, TOLERANCE * _size(trajectory, order))).any():
+                joint = int(np.argmax(ends))
+                faults.append(
+                    f"{QUANTITIES[order]} of joint {joint + 1} is {ends[joint]:.3g} at an end"
+                )
+
+    peaks = sorted(
+        _peaks(problem, trajectory),
+        key=lambda peak: (peak.stretch if np.isfinite(peak.stretch) else peak.factor),
+        reverse=True,
+    )
+    faults += [f"over the limit: {peak}" for peak in peaks if peak.factor > 1.0 + TOLERANCE]
+    stretch = max((peak.stretch for peak in peaks if peak.quantity != "position"), default=0.0)
+    return Verdict(trajectory.seconds, not faults, stretch, tuple(peaks), tuple(faults))
+
+
+def _size(trajectory: Trajectory, order: int) -> Array:
+    """Largest absolute value of a derivative per joint: the scale of its rounding errors, (dof,)."""
+    extremes = trajectory.extremes(order)
+    return np.asarray(np.maximum(-extremes.low, extremes.high).max(axis=0))
+
+
+def _peaks(problem: Problem, trajectory: Trajectory) -> list[Peak]:
+    """The worst place of every limited quantity."""
+    found = []
+    times = trajectory.passage_times
+    limits = problem.limits.derivatives
+
+    def peak(order: int, piece: int, joint: int, high: bool, limit: float, factor: float) -> Peak:
+        time = float((extremes.time_high if high else extremes.time_low)[piece, joint])
+        value = float((extremes.high if high else extremes.low)[piece, joint])
+        middle = trajectory.breaks[piece] + 0.5 * trajectory.durations[piece]
+        segment = min(max(int(np.searchsorted(times, middle)) - 1, 0), max(len(times) - 2, 0))
+        stretch = factor ** (1.0 / order) if order else np.inf
+        name = QUANTITIES[order]
+        return Peak(name, joint, segment, time, value, limit, factor, stretch)
+
+    if problem.limits.has_position:
+        extremes = trajectory.extremes(0)
+        low, high = problem.position_bounds.T
+        width = np.where(np.isfinite(high - low), high - low, 1.0)
+        # rounding of the waypoints themselves is not a violation
+        slack = 1e-13 * (1.0 + np.abs(problem.waypoints).max()) + TOLERANCE * width
+        below, above = low - slack - extremes.low, extremes.high - high - slack
+        for excess, is_high in ((below, False), (above, True)):
+            piece, joint = np.unravel_index(int(excess.argmax()), excess.shape)
+            limit = float((high if is_high else low)[joint])
+            if np.isfinite(limit):
+                # strictly inside counts as exactly 1: a position is kept or not
+                factor = 1.0 + max(float(excess[piece, joint]), 0.0) / float(width[joint])
+                found.append(peak(0, int(piece), int(joint), is_high, limit, factor))
+    for order in (1, 2, 3):
+        if not np.isfinite(limits[order - 1]).any():
+            continue
+        extremes = trajectory.extremes(order)
+        upper, lower = extremes.high / limits[order - 1], -extremes.low / limits[order - 1]
+        ratio = np.maximum(upper, lower)
+        piece, joint = np.unravel_index(int(ratio.argmax()), ratio.shape)
+        is_high = bool(upper[piece, joint] >= lower[piece, joint])
+        limit = float(limits[order - 1, joint])
+        found.append(
+            peak(order, int(piece), int(joint), is_high, limit, float(ratio[piece, joint]))
+        )
+    return found
+
+
+def _differentiated(polynomials: Array, order: int) -> Array:
+    """Derivative of ascending coefficients along the last axis; at least one coefficient is kept."""
+    for _ in range(order):
+        width = polynomials.shape[-1]
+        if width == 1:
+            return np.zeros_like(polynomials)
+        polynomials = polynomials[..., 1:] * np.arange(1, width)
+    return polynomials
+
+
+def _evaluated(polynomials: Array, points: Array) -> Array:
+    """Values (..., m) of polynomials (..., k) at points (..., m), Horner."""
+    values = np.zeros_like(points)
+    for k in range(polynomials.shape[-1] - 1, -1, -1):
+        values = values * points + polynomials[..., k : k + 1]
+    return values
+
+
+def _turning_points(slopes: Array) -> Array:
+    """Points of [0, 1] that include every root of the polynomials (..., k): (..., k - 1).
+
+    Further points do no harm: a value taken anywhere on the piece never exceeds its extreme.
+    """
+    width = slopes.shape[-1]
+    while width > 1 and not slopes[..., width - 1].any():
+        width -= 1
+    slopes = slopes[..., :width]
+    if width == 1:
+        return np.zeros((*slopes.shape[:-1], 0))
+    with np.errstate(divide="ignore", invalid="ignore", over="ignore"):
+        if width == 2:
+            roots = -slopes[..., :1] / slopes[..., 1:]
+        elif width == 3:
+            c, b, a = slopes[..., 0], slopes[..., 1], slopes[..., 2]
+            h = -0.5 * (b + np.copysign(np.sqrt(np.maximum(b * b - 4.0 * a * c, 0.0)), b))
+            roots = np.stack([h / a, c / h], axis=-1)
+        else:
+            flat = slopes.reshape(-1, width)
+            roots = np.stack([_roots(row) for row in flat]).reshape(*slopes.shape[:-1], width - 1)
+    return np.clip(np.nan_to_num(roots, nan=0.0), 0.0, 1.0)
+
+
+def _roots(row: Array) -> Array:
+    """Real parts of the roots of one polynomial, polished by Newton, padded with 0."""
+    found = np.zeros(len(row) - 1)
+    scale = np.abs(row).max()
+    if scale == 0.0:
+        return found
+    # leading coefficients that are rounding dust only move roots far outside [0, 1]
+    degree = int(np.flatnonzero(np.abs(row) > 1e-15 * scale)[-1])
+    if degree == 0:
+        return found
+    roots = np.polynomial.polynomial.polyroots(row[: degree + 1]).real.clip(0.0, 1.0)
+    slope = _differentiated(row, 1)
+    for _ in range(3):
+        step = _evaluated(row, roots) / _evaluated(slope, roots)
+        roots = np.clip(np.where(np.isfinite(step), roots - step, roots), 0.0, 1.0)
+    found[:degree] = roots
+    return found
