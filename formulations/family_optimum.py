@@ -142,8 +142,9 @@ def each_joint_alone(
 class LongestSegment:
     """The papers' rule (000 sec. 2.2; 001 sec. 3; 002 sec. 5.2): longest time per segment.
 
-    claimed: (n_segments,) [s], the durations the rule gives. stretch: the factor they then need to
-    keep the limits. Above 1 the rule's own motion breaks them.
+    claimed: (n_segments,) [s], the durations the rule gives. stretch: the least factor on them that
+    keeps the limits; above 1 the rule's own motion breaks them. position_excess: rad outside the
+    position limits, which no stretch mends.
     """
 
     claimed: Array
@@ -152,15 +153,12 @@ class LongestSegment:
 
     @property
     def durations(self) -> Array:
-        """Durations after the stretch, (n_segments,) [s]."""
-        return self.claimed * self.stretch
+        """Durations stretched to feasibility, as claimed if they are feasible, (n_segments,) [s]."""
+        return self.claimed * max(self.stretch, 1.0)
 
 
 def longest_segment(problem: Problem, per_joint: list[Array]) -> LongestSegment:
-    """Apply the rule to the durations of single joints, each (n_segments,) [s].
-
-    The result is shrunk too where the rule is needlessly slow: stretch can lie below 1.
-    """
+    """Apply the rule to the durations of single joints, each (n_segments,) [s]."""
     if not per_joint:
         raise InputError("longest_segment: no joint moves")
     claimed = np.max(per_joint, axis=0)

@@ -1,0 +1,1 @@
+"""Swarms graded against bounds: commands, rows on disk, tables, figures, report."""

@@ -1,0 +1,141 @@
+"""Run a comparison on all cores: ladders first, then swarms; each result on disk as it ends."""
+
+from __future__ import annotations
+
+import hashlib
+import multiprocessing
+import os
+import platform
+import sys
+from collections.abc import Callable, Iterable, Iterator
+from concurrent.futures import FIRST_COMPLETED, Future, ProcessPoolExecutor, wait
+from contextlib import contextmanager
+from typing import Any, TypeVar
+
+import numpy as np
+from tqdm import tqdm
+
+from compare.grade import Graded, Run, grade
+from compare.store import Store, key_of
+from formulations import FAMILIES, Problem, ladder
+from formulations.ladder import versions
+
+T = TypeVar("T")
+
+
+@contextmanager
+def workers(jobs: int) -> Iterator[ProcessPoolExecutor]:
+    """Worker processes, started afresh on every platform; an interrupt drops what waits."""
+    pool = ProcessPoolExecutor(jobs, mp_context=multiprocessing.get_context("spawn"))
+    try:
+        yield pool
+    except BaseException:
+        pool.shutdown(wait=False, cancel_futures=True)
+        raise
+    pool.shutdown()
+
+
+def each(
+    pool: ProcessPoolExecutor,
+    title: str,
+    function: Callable[..., T],
+    calls: Iterable[tuple[Any, ...]],
+) -> Iterator[T]:
+    """Results of ``function(*call)`` as they end, under a progress bar with the time left."""
+    waiting = list(calls)[::-1]
+    with tqdm(total=len(waiting), desc=title, unit="", disable=None, leave=False) as bar:
+        if not sys.stderr.isatty():
+            print(f"{title}: {len(waiting)}", file=sys.stderr, flush=True)
+        running: set[Future[T]] = set()
+        while waiting or running:
+            while waiting and len(running) < 64:  # enough to keep every worker busy
+                running.add(pool.submit(function, *waiting.pop()))
+            done, running = wait(running, return_when=FIRST_COMPLETED)
+            for future in done:
+                bar.update()
+                yield future.result()
+
+
+def climb(pool: ProcessPoolExecutor, problems: dict[str, Problem], store: Store) -> None:
+    """Every bound of every case, written to the store."""
+    for case, found in each(pool, "bounds", _ladder, list(problems.items())):
+        store.write_ladder(case, found)
+
+
+def swarm(
+    pool: ProcessPoolExecutor, runs: list[Run], problems: dict[str, Problem], store: Store
+) -> None:
+    """Every run that the store does not have yet; rows in the order of the runs when all are done."""
+    ladders = store.ladders()
+    bounds = {case: ladders[case]["ladder"]["family"]["seconds"] for case in problems}
+    facts = {
+        case: {"problem": digest(problem), "versions": versions_text(), "machine": machine()}
+        for case, problem in problems.items()
+    }
+    finished = {
+        key_of(row)
+        for row in store.rows()
+        if row["case"] in facts
+        and all(row[name] == facts[row["case"]][name] for name in ("problem", "versions"))
+    }
+    left = [run for run in runs if run.key not in finished]
+    batches = [left[i : i + _BATCH] for i in range(0, len(left), _BATCH)]
+    calls = [
+        (
+            [(run, problems[run.case], bounds[run.case]) for run in batch],
+        )
+        for batch in batches
+    ]
+    for graded in each(pool, f"swarms (x{_BATCH} runs)", _grades, calls):
+        for one in graded:
+            store.add(one, facts[one.run.case])
+    store.sort(runs)
+
+
+_BATCH = 5  # runs per call: a run takes milliseconds
+
+
+def _ladder(case: str, problem: Problem) -> tuple[str, dict[str, Any]]:
+    climbed = ladder(problem)
+    found = climbed.to_json()
+    found["alone"] = [None if one is None else one.seconds for one in climbed.alone]
+    found["title"], found["family"] = problem.title, problem.family
+    return case, found
+
+
+def _grades(batch: list[tuple[Run, Problem, float | None]]) -> list[Graded]:
+    return [grade(*one) for one in batch]
+
+
+def digest(problem: Problem) -> str:
+    """Short hash of what defines a problem: waypoints, limits, family."""
+    limits = problem.limits
+    parts = (problem.waypoints, limits.derivatives, limits.position)
+    data = b"".join(np.ascontiguousarray(part).tobytes() for part in parts)
+    return hashlib.sha256(data + problem.family.encode()).hexdigest()[:12]
+
+
+def versions_text() -> str:
+    """Versions of what made the numbers, on one line."""
+    return " ".join(f"{name}={version}" for name, version in versions().items())
+
+
+def machine() -> str:
+    """Processor, cores and system, on one line."""
+    model = platform.processor() or platform.machine()
+    try:
+        with open("/proc/cpuinfo", encoding="utf-8") as lines:
+            names = [line.split(":", 1)[1].strip() for line in lines if line.startswith("model name")]
+        model = names[0] if names else model
+    except OSError:
+        pass  # not Linux: the general name will do
+    return f"{model}, {os.cpu_count()} cores, {platform.system()}"
+
+
+def warm_up(problems: dict[str, Problem]) -> None:
+    """Compile the kernels once here, so that the workers find them in the cache."""
+    for problem in problems.values():
+        family = FAMILIES[problem.family]
+        ones = np.ones((1, problem.n_segments))
+        family.stretch(problem, ones)
+        family.position_excess(problem, ones)

@@ -1,0 +1,66 @@
+"""``python -m compare.solve FILE``: every bound of one problem, on screen and as JSON."""
+
+from __future__ import annotations
+
+import sys
+from pathlib import Path
+
+from compare import commands
+from formulations import Ladder, ladder, load
+from formulations.ladder import MEANINGS
+
+
+def main() -> int:
+    """Solve one problem file or shipped case."""
+    parser = commands.parser(
+        "solve",
+        "The ladder of bounds of one problem: what no motion can beat, and the best known motions.",
+        "python -m compare.solve sr4c --json sr4c.json",
+    )
+    parser.add_argument("file", metavar="FILE", help="a problem file (TOML) or a shipped case")
+    parser.add_argument("--json", metavar="OUT", help="write the ladder as JSON too")
+    parser.add_argument("--seed", type=int, default=0, help="seed of the NLP's random starts")
+    options = parser.parse_args()
+
+    problem = load(options.file)
+    live = sys.stderr.isatty()
+
+    def progress(key: str) -> None:
+        if live:
+            print(f"\r\033[K{key} ...", end="", file=sys.stderr, flush=True)
+
+    answer = ladder(problem, seed=options.seed, progress=progress)
+    if live:
+        print("\r\033[K", end="", file=sys.stderr)
+    print(f"{problem.name}: {problem.title}")
+    print(f"{problem.dof} joints, {problem.n_segments} segments, family {problem.family}\n")
+    print(as_text(answer))
+    if options.json:
+        commands.write_json(Path(options.json), answer.to_json())
+    return commands.DONE
+
+
+def as_text(answer: Ladder) -> str:
+    """The ladder as a plain table, shortest time first; rungs without a number last."""
+    rungs = sorted(
+        answer.rungs.values(), key=lambda r: (r.seconds is None, r.seconds or 0.0)
+    )
+    rows = [
+        [
+            rung.key,
+            rung.kind,
+            f"{rung.seconds:.6f} s" if rung.seconds is not None else rung.status,
+            "proved" if rung.certified and rung.kind == "lower"
+            else "verified" if rung.certified else "",
+            f"{rung.runtime:.2f} s",
+            MEANINGS[rung.key][1] + (f" ({rung.note})" if rung.note else ""),
+        ]
+        for rung in rungs
+    ]
+    return commands.table(
+        ["rung", "kind", "time", "", "took", "what it is"], rows, right=(2, 4)
+    )
+
+
+if __name__ == "__main__":
+    commands.run(main)

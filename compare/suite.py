@@ -1,0 +1,62 @@
+"""What is compared: cases, swarms, codings, seeds and budgets of a default, quick and full run."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+from compare.grade import Run
+from compare.objective import CODINGS
+from formulations import CASES
+from metaheuristics import ALGORITHMS
+
+
+@dataclass(frozen=True)
+class Budget:
+    """Population and number of iterations after the first population."""
+
+    population: int
+    iterations: int
+
+    @property
+    def evaluations(self) -> int:
+        """Every evaluation counts, the first population too."""
+        return self.population * (self.iterations + 1)
+
+
+# 000 Table 7; 001 sec. 3; 002 sec. 5.2; 004 sec. 3.2
+PAPER_BUDGETS: dict[str, Budget] = {
+    "sr4c": Budget(50, 50),
+    "bagging": Budget(20, 200),
+    "ur5": Budget(1000, 50),
+    "ur5-corrected": Budget(1000, 50),
+    "cobot": Budget(20, 200),
+}
+DEFAULT_BUDGET = Budget(50, 50)
+QUICK_BUDGET = Budget(20, 20)
+
+SEEDS = {"default": 10, "quick": 2, "full": 30}
+
+
+def runs(
+    *,
+    size: str = "default",
+    cases: list[str] | None = None,
+    swarms: list[str] | None = None,
+    codings: list[str] | None = None,
+    seeds: int | None = None,
+    evaluations: int | None = None,
+) -> list[Run]:
+    """The runs of one comparison, in a fixed order. size: default, quick or full."""
+    listed = []
+    for case in cases if cases is not None else CASES:
+        budget = DEFAULT_BUDGET
+        if size == "quick":
+            budget = QUICK_BUDGET
+        elif size == "full":
+            budget = PAPER_BUDGETS.get(case, DEFAULT_BUDGET)
+        for coding in codings if codings is not None else CODINGS:
+            for swarm in swarms if swarms is not None else ALGORITHMS:
+                for seed in range(seeds if seeds is not None else SEEDS[size]):
+                    total = evaluations or budget.evaluations
+                    listed.append(Run(case, coding, swarm, seed, total, budget.population))
+    return listed

@@ -1,0 +1,40 @@
+"""The fastest motion through waypoints under velocity, acceleration and jerk limits."""
+
+from __future__ import annotations
+
+from formulations.errors import InputError, UnsupportedProblem
+from formulations.families import FAMILIES
+from formulations.family_optimum import (
+    FamilyOptimum,
+    NoFeasibleMotion,
+    each_joint_alone,
+    family_optimum,
+    longest_segment,
+)
+from formulations.ladder import Ladder, ladder
+from formulations.problem import Limits, Problem
+from formulations.problem_file import CASES, load, parse
+from formulations.references import REFERENCES
+from formulations.trajectory import Trajectory, Verdict, check
+
+__all__ = [
+    "CASES",
+    "FAMILIES",
+    "REFERENCES",
+    "FamilyOptimum",
+    "InputError",
+    "Ladder",
+    "Limits",
+    "NoFeasibleMotion",
+    "Problem",
+    "Trajectory",
+    "UnsupportedProblem",
+    "Verdict",
+    "check",
+    "each_joint_alone",
+    "family_optimum",
+    "ladder",
+    "load",
+    "longest_segment",
+    "parse",
+]

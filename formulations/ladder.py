@@ -1,0 +1,214 @@
+"""Every bound of one problem, in order, with what each proves."""
+
+from __future__ import annotations
+
+import importlib.metadata
+import platform
+import time
+from collections.abc import Callable
+from dataclasses import dataclass, field
+from typing import Any, Literal
+
+
+from formulations.errors import UnsupportedProblem
+from formulations.family_optimum import (
+    FamilyOptimum,
+    NoFeasibleMotion,
+    each_joint_alone,
+    family_optimum,
+    longest_segment,
+)
+from formulations.problem import Array, Problem
+from formulations.references import REFERENCES, Outcome, toppra_on
+from formulations.families import FAMILIES
+from formulations.trajectory import Trajectory, check
+
+Kind = Literal["lower", "upper", "reference"]
+
+MEANINGS: dict[str, tuple[Kind, str]] = {
+    "displacement": ("lower", "no motion is faster: displacement at top speed"),
+    "ruckig_end_to_end": ("lower", "no motion is faster: Ruckig, inner waypoints ignored"),
+    "free_form_lower": ("lower", "no motion is faster: the best such bound"),
+    "free_form": ("upper", "fastest verified motion through the waypoints"),
+    "ruckig_stop_and_go": ("upper", "Ruckig with a full stop at each waypoint"),
+    "family_lower": ("lower", "no durations in the family are faster, certified"),
+    "family": ("upper", "exact NLP optimum of the family"),
+    "family_longest_segment": ("upper", "each joint alone, longest time per segment, stretched"),
+    "toppra_family_path": ("reference", "TOPP-RA on the family optimum's path, no jerk limit"),
+    "toppra_cubic": ("reference", "TOPP-RA on the clamped cubic, no jerk limit"),
+    "copp_family_path": ("reference", "jerk-limited optimum on the family optimum's path"),
+}
+
+_NOT_BUILT = "not part of this release"
+
+
+@dataclass(frozen=True)
+class Rung:
+    """One line of the ladder; seconds is None unless status is ok. runtime in s of this machine."""
+
+    key: str
+    kind: Kind
+    status: str
+    seconds: float | None
+    certified: bool
+    runtime: float
+    note: str
+
+
+@dataclass(frozen=True)
+class Ladder:
+    """The rungs of one problem by key, and the motions behind those that have one."""
+
+    problem: Problem
+    rungs: dict[str, Rung]
+    durations: dict[str, Array]
+    trajectories: dict[str, Trajectory] = field(repr=False)
+    optimum: FamilyOptimum | None = field(repr=False)
+    alone: tuple[FamilyOptimum | None, ...] = field(repr=False)
+
+    def seconds(self, key: str) -> float | None:
+        """The number of a rung [s], None where there is none."""
+        return self.rungs[key].seconds
+
+    def to_json(self) -> dict[str, Any]:
+        """Plain numbers and text, ready for ``json.dumps``."""
+        return {
+            "problem": self.problem.name,
+            "ladder": {
+                rung.key: {
+                    "seconds": rung.seconds,
+                    "kind": rung.kind,
+                    "status": rung.status,
+                    "certified": rung.certified,
+                    "runtime": rung.runtime,
+                    "note": rung.note,
+                }
+                for rung in self.rungs.values()
+            },
+            "durations": {key: value.tolist() for key, value in self.durations.items()},
+            "versions": versions(),
+        }
+
+
+def ladder(
+    problem: Problem,
+    *,
+    seed: int = 0,
+    progress: Callable[[str], None] | None = None,
+) -> Ladder:
+    """Climb every rung; a method that cannot be used or fails is a status with its reason."""
+    climb = _Climb(problem, seed, progress or (lambda key: None))
+    return climb.run()
+
+
+class _Climb:
+    def __init__(self, problem: Problem, seed: int, progress: Callable[[str], None]) -> None:
+        self.problem, self.seed, self.progress = problem, seed, progress
+        self.rungs: dict[str, Rung] = {}
+        self.durations: dict[str, Array] = {}
+        self.trajectories: dict[str, Trajectory] = {}
+        self.optimum: FamilyOptimum | None = None
+        self.alone: tuple[FamilyOptimum | None, ...] = ()
+
+    def run(self) -> Ladder:
+        for key in ("displacement", "ruckig_end_to_end", "ruckig_stop_and_go"):
+            self._add(key, lambda key=key: REFERENCES[key](self.problem))
+        self._add("free_form_lower", self._best_lower)
+        self._add("free_form", lambda: Outcome.not_applicable(_NOT_BUILT))
+        self._add("family_lower", lambda: Outcome.not_applicable(_NOT_BUILT))
+        self._add("family", self._family)
+        self._add("family_longest_segment", self._longest_segment)
+        self._add("toppra_family_path", self._toppra_family_path)
+        self._add("toppra_cubic", lambda: REFERENCES["toppra_cubic"](self.problem))
+        self._add("copp_family_path", lambda: Outcome.not_applicable(_NOT_BUILT))
+        return Ladder(
+            self.problem,
+            {key: self.rungs[key] for key in MEANINGS},
+            self.durations,
+            self.trajectories,
+            self.optimum,
+            self.alone,
+        )
+
+    def _add(self, key: str, method: Callable[[], Outcome]) -> None:
+        self.progress(key)
+        started = time.perf_counter()
+        try:
+            outcome = method()
+        except UnsupportedProblem as refusal:
+            outcome = Outcome.not_applicable(str(refusal))
+        except NoFeasibleMotion as failure:
+            outcome = Outcome.failed(str(failure))
+        runtime = time.perf_counter() - started
+        kind = MEANINGS[key][0]
+        certified = outcome.status == "ok" and (kind == "lower" or outcome.trajectory is not None)
+        self.rungs[key] = Rung(
+            key, kind, outcome.status, outcome.seconds, certified, runtime, outcome.note
+        )
+        if outcome.durations is not None:
+            self.durations[key] = outcome.durations
+        if outcome.trajectory is not None:
+            self.trajectories[key] = outcome.trajectory
+
+    def _best_lower(self) -> Outcome:
+        known = {
+            key: self.rungs[key].seconds
+            for key in ("displacement", "ruckig_end_to_end")
+            if self.rungs[key].seconds is not None
+        }
+        best = max(known, key=lambda key: known[key] or 0.0)
+        note = f"best of {', '.join(known)}"
+        if not self.problem.limits.has_acceleration and not self.problem.limits.has_jerk:
+            note = "with a velocity limit alone the displacement bound is the infimum itself"
+        return Outcome.ok(known[best] or 0.0, note=note)
+
+    def _family(self) -> Outcome:
+        optimum = family_optimum(self.problem, seed=self.seed)
+        verdict = optimum.verdict
+        if not verdict.feasible:
+            return Outcome.failed(f"did not pass the check: {verdict.faults[0]}")
+        self.optimum = optimum
+        return Outcome.ok(
+            verdict.seconds,
+            durations=optimum.durations,
+            trajectory=optimum.trajectory,
+            note=f"{optimum.family}; {optimum.agreeing_starts} of {len(optimum.starts)} starts agree",
+        )
+
+    def _longest_segment(self) -> Outcome:
+        if self.optimum is None:
+            return Outcome.not_applicable("there is no family optimum")
+        self.alone = each_joint_alone(self.problem, seed=self.seed)
+        moving = [optimum.durations for optimum in self.alone if optimum is not None]
+        if not moving:
+            return Outcome.ok(self.optimum.seconds, note="nothing moves")
+        rule = longest_segment(self.problem, moving)
+        trajectory = FAMILIES[self.problem.family].trajectory(self.problem, rule.durations)
+        verdict = check(self.problem, trajectory)
+        claim = f"claims {rule.claimed.sum():.6g} s"
+        if not verdict.feasible:
+            return Outcome.failed(f"{claim}; no stretch mends it: {verdict.faults[0]}")
+        broken = "keeps the limits" if rule.stretch <= 1.0 else f"needs a stretch of {rule.stretch:.6g}"
+        return Outcome.ok(
+            verdict.seconds,
+            durations=rule.durations,
+            trajectory=trajectory,
+            note=f"{claim}, {broken}",
+        )
+
+    def _toppra_family_path(self) -> Outcome:
+        if self.optimum is None:
+            return Outcome.not_applicable("there is no family optimum")
+        return toppra_on(self.problem, self.optimum.trajectory)
+
+
+def versions() -> dict[str, str]:
+    """Versions of Python, timebound and the libraries that make the numbers."""
+    packages = ("timebound", "numpy", "scipy", "numba", "casadi", "toppra", "ruckig")
+    found = {"python": platform.python_version()}
+    for package in packages:
+        try:
+            found[package] = importlib.metadata.version(package)
+        except importlib.metadata.PackageNotFoundError:
+            found[package] = "not installed"
+    return found

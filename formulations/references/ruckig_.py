@@ -1,0 +1,131 @@
+"""Ruckig (Berscheid & Kroeger 2021): time-optimal, jerk-limited motion between two states of rest.
+
+End to end, the inner waypoints ignored, it is a relaxation: a lower bound. Stopping at every
+waypoint it is a feasible motion: an upper bound, and what an engineer has offline today.
+"""
+
+from __future__ import annotations
+
+import math
+from dataclasses import replace
+
+import numpy as np
+import ruckig
+
+from formulations.problem import Array, Problem
+from formulations.references.reference import Outcome
+from formulations.trajectory import Trajectory, check
+
+
+def ruckig_end_to_end(problem: Problem) -> Outcome:
+    """First to last waypoint, inner ones ignored; confirmed by the closed form of each joint."""
+    outcome = _through(problem, problem.waypoints[[0, -1]])
+    if outcome.seconds is None:
+        return outcome
+    distances = np.abs(problem.waypoints[-1] - problem.waypoints[0])
+    limits = problem.limits.derivatives
+    closed = max(rest_to_rest(d, *limits[:, j]) for j, d in enumerate(distances))
+    if abs(outcome.seconds - closed) > 1e-9 * closed:
+        return Outcome.failed(f"Ruckig says {outcome.seconds:.12g} s, the closed form {closed:.12g} s")
+    return replace(outcome, seconds=min(outcome.seconds, closed))
+
+
+def ruckig_stop_and_go(problem: Problem) -> Outcome:
+    """Full stop at each waypoint."""
+    return _through(problem, problem.waypoints)
+
+
+def rest_to_rest(distance: float, velocity: float, acceleration: float, jerk: float) -> float:
+    """Least time [s] of one joint from rest to rest, closed form of the symmetric S-curve.
+
+    distance [rad] >= 0; limits in rad/s, rad/s^2, rad/s^3, jerk may be infinite
+    (Biagiotti & Melchiorri 2008, sec. 3.4).
+    """
+    # time to reach top speed from rest, with and without a phase of constant acceleration
+    if velocity * jerk >= acceleration**2:
+        ramp = velocity / acceleration + acceleration / jerk
+    else:
+        ramp = 2.0 * math.sqrt(velocity / jerk)
+    if distance >= velocity * ramp:
+        return distance / velocity + ramp
+    if distance >= 2.0 * acceleration**3 / jerk**2:
+        rise = acceleration / jerk
+        return rise + math.sqrt(rise**2 + 4.0 * distance / acceleration)
+    return 4.0 * math.cbrt(distance / (2.0 * jerk))
+
+
+def _through(problem: Problem, points: Array) -> Outcome:
+    if not np.isfinite(problem.limits.acceleration).all():
+        return Outcome.not_applicable("Ruckig needs an acceleration limit on every joint")
+    durations: list[float] = []
+    pieces: list[tuple[Array, Array]] = []
+    for start, end in zip(points[:-1], points[1:], strict=True):
+        if np.array_equal(start, end):
+            durations.append(0.0)
+            continue
+        motion = _rest_to_rest(problem, start, end)
+        if isinstance(motion, str):
+            return Outcome.failed(motion)
+        durations.append(float(motion[0].sum()))
+        pieces.append(motion)
+    seconds = np.array(durations)
+    if not pieces:
+        return Outcome.ok(0.0, durations=seconds, note="nothing moves")
+    trajectory = Trajectory(
+        np.concatenate([d for d, _ in pieces]),
+        np.concatenate([c for _, c in pieces]),
+        np.concatenate([[0.0], np.cumsum(seconds)]),
+    )
+    verdict = check(problem, trajectory, through=len(points) == len(problem.waypoints))
+    if not verdict.feasible:
+        return Outcome.failed(f"Ruckig's motion did not pass the check: {verdict.faults[0]}")
+    return Outcome.ok(verdict.seconds, durations=seconds, trajectory=trajectory)
+
+
+def _rest_to_rest(problem: Problem, start: Array, end: Array) -> tuple[Array, Array] | str:
+    """Durations (m,) and coefficients (m, dof, 4) of one motion, or what went wrong."""
+    limits = problem.limits
+    task = ruckig.InputParameter(problem.dof)
+    task.current_position, task.target_position = start.tolist(), end.tolist()
+    task.max_velocity = limits.velocity.tolist()
+    task.max_acceleration = limits.acceleration.tolist()
+    task.max_jerk = limits.jerk.tolist()
+    answer = ruckig.Trajectory(problem.dof)
+    result = ruckig.Ruckig(problem.dof).calculate(task, answer)
+    if result not in (ruckig.Result.Working, ruckig.Result.Finished):
+        return f"Ruckig returned {result.name}"
+    return pieces_of(answer, start)
+
+
+def pieces_of(answer: ruckig.Trajectory, start: Array) -> tuple[Array, Array]:
+    """A Ruckig trajectory as polynomial pieces common to all joints.
+
+    Only the phase times and the jerks (without a jerk limit: accelerations) are taken from Ruckig's
+    profiles; positions and velocities are integrated here, so that the motion is what it says.
+    """
+    profiles = answer.profiles[0]
+    phase_ends = [np.cumsum(profile.t) for profile in profiles]
+    end = float(answer.duration)
+    breaks = np.unique(np.concatenate([[0.0, end], *phase_ends]))
+    breaks = breaks[breaks <= end]
+    # times that differ by rounding alone are one break
+    breaks = np.append(breaks[:-1][np.diff(breaks) > 1e-12 * end], end)
+    durations = np.diff(breaks)
+    middles = breaks[:-1] + 0.5 * durations
+    coefficients = np.zeros((len(durations), len(profiles), 4))
+    for joint, (profile, ends) in enumerate(zip(profiles, phase_ends, strict=True)):
+        phase = np.minimum(np.searchsorted(ends, middles), len(ends) - 1)
+        moving = middles < ends[-1]
+        jerk = np.where(moving, np.array(profile.j)[phase], 0.0)
+        # without a jerk limit the acceleration is set at the start of each phase
+        jumps = not np.any(profile.j)
+        x, v, a = float(start[joint]), 0.0, 0.0
+        for k, h in enumerate(durations):
+            if jumps:
+                a = float(profile.a[phase[k]]) if moving[k] else 0.0
+            j = float(jerk[k])
+            coefficients[k, joint] = (x, v, a / 2.0, j / 6.0)
+            x += h * (v + h * (a / 2.0 + h * j / 6.0))
+            v += h * (a + h * j / 2.0)
+            a += h * j
+    return durations, coefficients

@@ -1,0 +1,156 @@
+"""TOPP-RA (Pham & Pham 2018): time-optimal motion along a fixed path, velocity and acceleration limits.
+
+The path is that of the family optimum, or the clamped cubic through the waypoints. Both stand still
+in their own parameter at both ends (a 3-5-3 spline starts as t^3), where TOPP-RA cannot start, so
+the path is given by its arc length in joint space scaled by the velocity limits. The result is a
+discretised one; the grid is refined and what the last doubling changed is stated as its error.
+"""
+
+from __future__ import annotations
+
+import logging
+from typing import Any
+
+import numpy as np
+import toppra
+from scipy.interpolate import CubicSpline
+
+from formulations.problem import Array, Problem
+from formulations.references.displacement import displacement_segments
+from formulations.references.reference import Outcome
+from formulations.trajectory import Trajectory
+
+_GRIDS = (100, 200, 400, 800, 1600)  # intervals per path piece, coarse to fine
+_GRID_ERROR = 2e-4  # refine until doubling the grid changes the duration by less
+
+logging.getLogger("toppra").setLevel(logging.CRITICAL)  # its failures become our statuses
+
+
+def toppra_on(problem: Problem, path: Trajectory) -> Outcome:
+    """TOPP-RA on the path of a motion through the waypoints; no jerk limit."""
+    if not problem.moving_joints:
+        return Outcome.ok(0.0, note="nothing moves")
+    results: list[tuple[int, float]] = []
+    reason = ""
+    for grid in _GRIDS:
+        answer = _time(problem, _ArcLength(problem, path, grid))
+        if isinstance(answer, str):
+            reason = f"{answer} at {grid} intervals per piece"
+            continue
+        results.append((grid, answer))
+        if len(results) >= 2 and abs(results[-1][1] / results[-2][1] - 1.0) < _GRID_ERROR:
+            break
+    if len(results) < 2:
+        return Outcome.failed(f"TOPP-RA: {reason}")
+    (_, coarse), (grid, seconds) = results[-2:]
+    change = abs(seconds / coarse - 1.0)
+    note = f"{grid} grid intervals per piece; grid error {change:.1e}; no jerk limit"
+    if reason:
+        note += f"; failed: {reason}"
+    return Outcome.ok(seconds, note=note)
+
+
+def toppra_cubic(problem: Problem) -> Outcome:
+    """TOPP-RA on the clamped cubic spline through the waypoints, knots by displacement time."""
+    if not problem.moving_joints:
+        return Outcome.ok(0.0, note="nothing moves")
+    times = displacement_segments(problem)
+    moves = times > 0.0
+    knots = np.concatenate([[0.0], np.cumsum(times[moves])])
+    points = problem.waypoints[np.concatenate([[True], moves])]
+    spline = CubicSpline(knots, points, bc_type="clamped")
+    path = Trajectory(np.diff(knots), np.moveaxis(spline.c[::-1], 0, -1))
+    return toppra_on(problem, path)
+
+
+class _ArcLength(toppra.interpolator.AbstractGeometricPath):  # type: ignore[misc]  # untyped base
+    """A motion's path by arc length, evaluated on its own grid alone.
+
+    With u(t) = q'(t) / |q'(t)| the first derivative by arc length is u and the second u'/|q'|. At an
+    end where q' vanishes both are limits: u from the lowest power of t that moves, and the second is
+    set to 0, where the path speed is 0 and its value has no weight.
+    """
+
+    def __init__(self, problem: Problem, path: Trajectory, grid: int) -> None:
+        self._scale = 1.0 / problem.limits.velocity
+        t = np.append(
+            np.concatenate([self._nodes(path, piece, grid) for piece in range(len(path.durations))]),
+            path.seconds,
+        )
+        first, second = path.at(t, 1) * self._scale, path.at(t, 2) * self._scale
+        for end, inside in ((0, 1e-6), (-1, 1.0 - 1e-6)):
+            first[end] = path.at(path.seconds * inside, 1) * self._scale
+        speed = np.linalg.norm(first, axis=1)
+        with np.errstate(divide="ignore", invalid="ignore"):
+            u = first / speed[:, None]
+            along = np.sum(second * u, axis=1)[:, None]
+            bend = (second - along * u) / speed[:, None] ** 2
+        bend[[0, -1]] = 0.0
+        lengths = self._lengths(path, t)
+        keep = np.append(lengths > 1e-12 * lengths.sum(), True)
+        self.grid = np.concatenate([[0.0], np.cumsum(lengths)])[keep]
+        self._derivatives = (path.at(t)[keep], u[keep] / self._scale, bend[keep] / self._scale)
+        self.still = not np.isfinite(self._derivatives[1]).all()
+
+    def _lengths(self, path: Trajectory, t: Array) -> Array:
+        """Arc length between consecutive times, by Gauss-Legendre."""
+        x, w = np.polynomial.legendre.leggauss(5)
+        h = np.diff(t)
+        inner = t[:-1, None] + h[:, None] * (x + 1.0) / 2.0
+        return np.asarray((np.linalg.norm(path.at(inner, 1) * self._scale, axis=2) @ w) * h / 2.0)
+
+    def _nodes(self, path: Trajectory, piece: int, grid: int) -> Array:
+        """Times of one piece whose arc lengths crowd towards its ends as (i/n)^2, last one left out.
+
+        Even steps of time, where the motion along the path starts from rest.
+        """
+        start, duration = path.breaks[piece], path.durations[piece]
+        fine = start + duration * np.linspace(0.0, 1.0, 8 * grid + 1)
+        length = np.concatenate([[0.0], np.cumsum(self._lengths(path, fine))])
+        wanted = length[-1] * (0.5 - 0.5 * np.cos(np.pi * np.arange(grid) / grid))
+        return np.asarray(np.interp(wanted, length, fine))
+
+    def __call__(self, path_positions: Any, order: int = 0) -> Array:
+        """Values at grid points, (m, dof), or (dof,) for one."""
+        rows = np.abs(np.atleast_1d(path_positions)[:, None] - self.grid).argmin(axis=1)
+        values = self._derivatives[order][rows]
+        return np.asarray(values if np.ndim(path_positions) else values[0])
+
+    @property
+    def dof(self) -> int:
+        """Number of joints."""
+        return len(self._scale)
+
+    @property
+    def path_interval(self) -> Array:
+        """Start and end of the path."""
+        return self.grid[[0, -1]]
+
+    @property
+    def waypoints(self) -> None:
+        """None: a path, not a list of points."""
+
+
+def _time(problem: Problem, path: _ArcLength) -> float | str:
+    """Duration on one grid [s], or what went wrong."""
+    if path.still:
+        return "the path stands still inside"
+    constraints = [toppra.constraint.JointVelocityConstraint(_symmetric(problem.limits.velocity))]
+    if problem.limits.has_acceleration:
+        constraints.append(
+            toppra.constraint.JointAccelerationConstraint(_symmetric(problem.limits.acceleration))
+        )
+    algorithm = toppra.algorithm.TOPPRA(
+        constraints, path, gridpoints=path.grid, solver_wrapper="seidel"
+    )
+    _, speeds, _ = algorithm.compute_parameterization(0.0, 0.0)
+    if speeds is None or not np.isfinite(speeds).all():
+        return "no parameterisation found"
+    means = 0.5 * (speeds[1:] + speeds[:-1])
+    if not (means > 0.0).all():
+        return "the speed vanishes inside the path"
+    return float((np.diff(path.grid) / means).sum())
+
+
+def _symmetric(limit: Array) -> Array:
+    return np.stack([-limit, limit], axis=1)
