@@ -3,6 +3,7 @@
 rows.csv     one line per run; lines are appended whole, so a killed run leaves a readable file
 traces.jsonl one line per run: best fitness against evaluations
 ladders/     one JSON per case
+settings.json  what was asked for
 """
 
 from __future__ import annotations
@@ -60,11 +61,14 @@ class Store:
         """Start afresh: a header and nothing else."""
         commands.write_text(self.rows_file, _line(list(COLUMNS)))
         commands.write_text(self.traces_file, "")
+        for old in (self.folder / "ladders").glob("*.json"):
+            old.unlink()
 
     def mend(self) -> None:
         """Keep what was finished: whole lines, rewritten."""
         rows, traces = self.rows(), self.traces()
-        self.clear()
+        commands.write_text(self.rows_file, _line(list(COLUMNS)))
+        commands.write_text(self.traces_file, "")
         for row in rows:
             _append(self.rows_file, _line([_text(row[column]) for column in COLUMNS]))
         for run_key, found in traces.items():
@@ -126,6 +130,14 @@ class Store:
             except (ValueError, KeyError, TypeError) as error:
                 raise InputError(f"{self.traces_file}: not a trace: {error}") from None
         return found
+
+    def write_settings(self, settings: dict[str, Any]) -> None:
+        """Keep what was asked for."""
+        commands.write_json(self.folder / "settings.json", settings)
+
+    def settings(self) -> dict[str, Any]:
+        """What was asked for."""
+        return dict(json.loads((self.folder / "settings.json").read_text("utf-8")))
 
     def write_ladder(self, case: str, ladder: dict[str, Any]) -> None:
         """Keep the ladder of a case."""

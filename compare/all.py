@@ -1,0 +1,79 @@
+"""``python -m compare.all``: every case, swarm and coding, and the report."""
+
+from __future__ import annotations
+
+import os
+import sys
+import time
+
+from compare import commands, suite
+from compare.objective import CODINGS
+from compare.report import render
+from compare.run import climb, swarm, warm_up, workers
+from compare.store import Store
+from formulations import CASES, load
+from metaheuristics import ALGORITHMS
+
+
+def main() -> int:
+    """Run a comparison and write its report."""
+    parser = commands.parser(
+        "all",
+        "Run every swarm on every case in every coding against the family's optimum, and write the\n"
+        "report: DIR/index.html, report.md, rows.csv and all figures.",
+        "python -m compare.all --cases sr4c,ur5 --swarms pso,mipso --seeds 30 --out report",
+    )
+    size = parser.add_mutually_exclusive_group()
+    size.add_argument("--quick", action="store_true", help="2 seeds, 420 evaluations: a first look")
+    size.add_argument("--full", action="store_true", help="30 seeds and the papers' own budgets")
+    parser.add_argument("--out", default="report", metavar="DIR", help="folder of the report")
+    parser.add_argument("--jobs", type=int, default=os.cpu_count() or 1, help="worker processes")
+    parser.add_argument("--cases", help=f"some of {','.join(CASES)}")
+    parser.add_argument("--swarms", help=f"some of {','.join(ALGORITHMS)}")
+    parser.add_argument("--codings", help=f"some of {','.join(CODINGS)}")
+    parser.add_argument("--seeds", type=int, help="number of seeds")
+    parser.add_argument("--budget", type=int, help="evaluations per search, for all cases")
+    parser.add_argument(
+        "--resume", action="store_true", help="keep the finished rows of an interrupted run"
+    )
+    options = parser.parse_args()
+
+    started = time.perf_counter()
+    name = "quick" if options.quick else "full" if options.full else "default"
+    cases = commands.chosen("--cases", options.cases, CASES)
+    for key in ("jobs", "seeds", "budget"):
+        if getattr(options, key) is not None:
+            commands.positive(f"--{key}", getattr(options, key))
+    runs = suite.runs(
+        size=name,
+        cases=cases,
+        swarms=commands.chosen("--swarms", options.swarms, ALGORITHMS),
+        codings=commands.chosen("--codings", options.codings, CODINGS),
+        seeds=options.seeds,
+        evaluations=options.budget,
+    )
+    problems = {case: load(case) for case in cases}
+    store = Store(commands.output_folder(options.out))
+    if options.resume:
+        store.mend()
+    else:
+        store.clear()
+    budgets = sorted({run.budget for run in runs})
+    settings = {
+        "size": name,
+        "seeds": max(run.seed for run in runs) + 1,
+        "budget": " or ".join(str(budget) for budget in budgets) + " evaluations",
+    }
+    store.write_settings(settings)
+
+    warm_up(problems)
+    with workers(options.jobs) as pool:
+        climb(pool, problems, store)
+        swarm(pool, runs, problems, store)
+    page = render(store.folder, problems, settings, options.jobs)
+    print(f"report: {page} ({len(runs)} runs, {time.perf_counter() - started:.0f} s)", file=sys.stderr)
+    return commands.DONE
+
+
+if __name__ == "__main__":
+    commands.run(main)

@@ -1,0 +1,302 @@
+"""The pictures of the report, drawn from the store alone. Okabe-Ito colours, units on every axis."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from pathlib import Path
+from typing import Any
+
+import matplotlib as mpl
+
+mpl.use("Agg")
+
+import matplotlib.pyplot as plt
+import numpy as np
+from matplotlib.axes import Axes
+from matplotlib.figure import Figure
+
+from compare.grade import Trace, durations_of
+from compare.statistics import best_claim, best_row, convergence
+from compare.store import Store, key_of
+from formulations import FAMILIES, Problem, Trajectory, check
+from formulations.problem import Array
+
+# Okabe & Ito (2008): eight colours that colour-blind people can tell apart
+BLACK, ORANGE, SKY, GREEN, YELLOW, BLUE, VERMILION, PURPLE = (
+    "#000000", "#E69F00", "#56B4E9", "#009E73", "#F0E442", "#0072B2", "#D55E00", "#CC79A7",
+)  # fmt: skip
+GREY = "#888888"
+CODING_STYLE = {"published": (VERMILION, "s"), "shared": (SKY, "o"), "stretched": (BLUE, "D")}
+SWARM_STYLE = [
+    (GREY, "-"), (BLACK, "-"), (BLACK, "--"), (BLACK, ":"), (BLUE, "-"),
+    (SKY, "-"), (SKY, "--"), (SKY, ":"), (PURPLE, "-"), (ORANGE, "-"),
+]  # fmt: skip
+KIND_STYLE = {"lower": (BLUE, ">"), "upper": (GREEN, "o"), "reference": (PURPLE, "D")}
+SMALLEST = 1e-12  # gaps below are drawn here: rounding
+
+RUNG_NAMES = {
+    "displacement": "displacement bound",
+    "ruckig_end_to_end": "Ruckig, end to end",
+    "free_form_lower": "best bound on any motion",
+    "free_form": "fastest motion known",
+    "ruckig_stop_and_go": "Ruckig, stop and go",
+    "family_lower": "certified bound of the family",
+    "family": "optimum of the family",
+    "family_longest_segment": "each joint alone, longest time per segment, stretched",
+    "toppra_family_path": "TOPP-RA, path of the optimum (no jerk limit)",
+    "toppra_cubic": "TOPP-RA, clamped cubic (no jerk limit)",
+    "copp_family_path": "COPP, path of the optimum",
+}
+
+_STYLE = {
+    "font.size": 9,
+    "axes.spines.top": False,
+    "axes.spines.right": False,
+    "figure.constrained_layout.use": True,
+    "svg.hashsalt": "timebound",
+    "savefig.dpi": 110,
+}
+
+
+def draw_case(folder: str, case: str, problem: Problem) -> list[str]:
+    """Draw every figure of one case into ``folder``/figures as SVG and PNG; their names."""
+    store = Store(Path(folder))
+    rows = [row for row in store.rows() if row["case"] == case]
+    ladder = store.ladders()[case]
+    draw: dict[str, Callable[[], Figure]] = {
+        "ladder": lambda: ladder_figure(problem, ladder, rows),
+        "gaps": lambda: gap_figure(problem, rows),
+        "convergence": lambda: convergence_figure(problem, ladder, rows, store.traces()),
+        "motion": lambda: motion_figure(problem, ladder, rows),
+    }
+    target = Path(folder) / "figures"
+    target.mkdir(exist_ok=True)
+    names = []
+    with mpl.rc_context(_STYLE):
+        for name, make in draw.items():
+            figure = make()
+            for ending in ("svg", "png"):
+                metadata = {"Date": None} if ending == "svg" else None
+                figure.savefig(target / f"{case}-{name}.{ending}", metadata=metadata)
+            plt.close(figure)
+            names.append(f"{case}-{name}")
+    return names
+
+
+def ladder_figure(problem: Problem, ladder: dict[str, Any], rows: list[dict[str, Any]]) -> Figure:
+    """Every bound and the best swarm results on one time axis."""
+    entries = [
+        (RUNG_NAMES[key], rung["seconds"], *KIND_STYLE[rung["kind"]])
+        for key, rung in ladder["ladder"].items()
+        if rung["seconds"] is not None and key != "free_form_lower"
+    ]
+    claim = best_claim(rows)
+    if claim is not None:
+        name = f"best claim in the papers' coding ({claim['swarm']})"
+        if claim["keeps_limits"]:
+            entries.append((name, claim["claimed"], ORANGE, "o"))
+        else:
+            entries.append((f"{name}: BREAKS LIMITS", claim["claimed"], VERMILION, "X"))
+            name = f"that claim, slowed by {claim['stretch']:.4f} until it keeps them"
+            entries.append((name, claim["seconds"], ORANGE, "o"))
+    stretched = best_row(rows, coding="stretched")
+    if stretched is not None:
+        entries.append(
+            (f"best swarm, stretched coding ({stretched['swarm']})", stretched["seconds"], ORANGE, "o")
+        )
+    entries.sort(key=lambda entry: entry[1])
+    optimum = ladder["ladder"]["family"]["seconds"]
+    figure, axes = plt.subplots(figsize=(9.0, 0.8 + 0.3 * len(entries)))
+    barrier = ladder["ladder"]["free_form_lower"]["seconds"] or 0.0
+    axes.axvspan(0.0, barrier, color=BLUE, alpha=0.10, lw=0)
+    axes.text(barrier / 2, -0.75, "no motion can be here", ha="center", color=BLUE, fontsize=8)
+    if optimum is not None:
+        axes.axvline(optimum, color=GREEN, lw=0.8, ls="--")
+    for y, (name, seconds, colour, marker) in enumerate(entries):
+        axes.plot([0.0, seconds], [y, y], color=colour, lw=1.0, alpha=0.35)
+        axes.plot(seconds, y, marker, color=colour, ms=7)
+        relative = ""
+        if optimum and name != RUNG_NAMES["family"]:
+            gap = seconds / optimum - 1.0
+            relative = "  (the optimum)" if abs(gap) < 5e-7 else f"  ({gap:+.2%})"
+        axes.text(seconds, y, f"   {seconds:.4f} s{relative}", va="center", fontsize=8)
+    axes.set_yticks(range(len(entries)), [entry[0] for entry in entries])
+    axes.set_ylim(len(entries) - 0.4, -1.1)
+    axes.set_xlim(0.0, max(entry[1] for entry in entries) * 1.28)
+    axes.set_xlabel("total time [s]; in brackets: against the optimum of the family")
+    axes.set_title(f"{problem.name}: {problem.title}, family {problem.family}", loc="left")
+    return figure
+
+
+def gap_figure(problem: Problem, rows: list[dict[str, Any]]) -> Figure:
+    """Gap of every seed of every swarm in every coding; hollow: the claimed motion breaks limits."""
+    swarms = list(dict.fromkeys(row["swarm"] for row in rows))
+    codings = list(dict.fromkeys(row["coding"] for row in rows))
+    figure, axes = plt.subplots(figsize=(9.0, 1.2 + 0.42 * len(swarms)))
+    for row_index, swarm in enumerate(swarms):
+        if row_index % 2:
+            axes.axhspan(row_index - 0.5, row_index + 0.5, color="#000000", alpha=0.035, lw=0)
+        for lane, coding in enumerate(codings):
+            colour, marker = CODING_STYLE[coding]
+            y = row_index + (lane - (len(codings) - 1) / 2) * 0.25
+            group = [r for r in rows if r["swarm"] == swarm and r["coding"] == coding]
+            gaps = [r["gap"] for r in group if r["gap"] is not None]
+            for kept, face in ((True, colour), (False, "white")):
+                marks = [r for r in group if r["gap"] is not None and r["keeps_limits"] == kept]
+                x = [max(r["gap"], SMALLEST) for r in marks]
+                axes.plot(x, [y] * len(x), marker, ls="", ms=4, mec=colour, mfc=face,
+                          alpha=0.75, mew=0.9)  # fmt: skip
+            if gaps:
+                axes.plot(max(float(np.median(gaps)), SMALLEST), y, "|", color=BLACK, ms=9, mew=1.6)
+            if len(gaps) < len(group):
+                text = f"{len(group) - len(gaps)} of {len(group)} without a feasible motion"
+                axes.text(0.995, y, text, color=colour, fontsize=7, va="center", ha="right",
+                          transform=axes.get_yaxis_transform())  # fmt: skip
+    for coding in codings:
+        colour, marker = CODING_STYLE[coding]
+        axes.plot([], [], marker, color=colour, ls="", label=coding)
+    axes.plot([], [], "o", mec=GREY, mfc="white", ls="", label="as claimed breaks limits")
+    axes.plot([], [], "|", color=BLACK, ls="", ms=9, mew=1.6, label="median")
+    axes.set_xscale("log")
+    axes.set_xlim(SMALLEST * 0.5, max([10.0, *[(r["gap"] or 0.0) * 2 for r in rows]]))
+    axes.set_ylim(len(swarms) - 0.5, -0.5)
+    axes.set_yticks(range(len(swarms)), swarms)
+    ticks = [1e-12, 1e-10, 1e-8, 1e-6, 1e-4, 1e-2, 1.0]
+    axes.set_xticks(ticks, ["rounding", *(f"{100 * t:.4g} %" for t in ticks[1:])])
+    axes.set_xlabel("gap of the verified motion to the family's optimum [%], every seed a mark")
+    axes.set_title(f"{problem.name}: how far each swarm is from the best in its family", loc="left")
+    axes.legend(ncols=5, fontsize=7.5, loc="upper center", bbox_to_anchor=(0.5, -0.16), frameon=False)
+    return figure
+
+
+def convergence_figure(
+    problem: Problem,
+    ladder: dict[str, Any],
+    rows: list[dict[str, Any]],
+    traces: dict[tuple[Any, ...], list[Trace]],
+) -> Figure:
+    """Median gap of each swarm against evaluations, one panel per coding."""
+    swarms = list(dict.fromkeys(row["swarm"] for row in rows))
+    codings = list(dict.fromkeys(row["coding"] for row in rows))
+    optima = {-1: ladder["ladder"]["family"]["seconds"]}
+    optima |= {j: s for j, s in enumerate(ladder["alone"]) if s is not None}
+    figure, panels = plt.subplots(
+        1, len(codings), figsize=(10.5, 3.9), sharey=True, squeeze=False
+    )
+    for axes, coding in zip(panels[0], codings, strict=True):
+        for index, swarm in enumerate(swarms):
+            group = [r for r in rows if r["swarm"] == swarm and r["coding"] == coding]
+            found = [traces[key_of(r)] for r in group if key_of(r) in traces]
+            if not found or optima[-1] is None:
+                continue
+            grid, (low, middle, high) = convergence(found, optima, group[0]["budget"])
+            colour, line = SWARM_STYLE[index % len(SWARM_STYLE)]
+            shown = np.isfinite(middle)
+            axes.plot(grid[shown], np.maximum(middle[shown], SMALLEST), line,
+                      color=colour, lw=1.4, label=swarm)  # fmt: skip
+            band = shown & np.isfinite(high)
+            axes.fill_between(grid[band], np.maximum(low[band], SMALLEST),
+                              np.maximum(high[band], SMALLEST), color=colour, alpha=0.08, lw=0)  # fmt: skip
+        axes.set_xscale("log")
+        axes.set_yscale("log")
+        per = " of each joint" if coding == "published" else ""
+        axes.set_xlabel(f"evaluations{per}")
+        axes.set_title(coding, loc="left")
+        axes.grid(alpha=0.25, lw=0.5)
+    panels[0][0].set_ylabel("gap of the best so far [1]")
+    handles, labels = panels[0][-1].get_legend_handles_labels()
+    figure.legend(handles, labels, loc="outside right center", frameon=False, fontsize=8)
+    figure.suptitle(
+        f"{problem.name}: median over seeds, band: quartiles. published: mean over the joints, each"
+        " against its own optimum",
+        fontsize=9,
+    )
+    return figure
+
+
+_QUANTITIES = (("position", ""), ("velocity", "/s"), ("acceleration", "/s²"), ("jerk", "/s³"))
+
+
+def motion_figure(problem: Problem, ladder: dict[str, Any], rows: list[dict[str, Any]]) -> Figure:
+    """Position to jerk of the best motion with the limits drawn in; and of the papers' coding, as
+    claimed, red where it breaks them."""
+    family = FAMILIES[problem.family]
+    best = best_row(rows)
+    optimum = np.array(ladder["durations"]["family"])
+    title, motion = "optimum of the family (NLP)", family.trajectory(problem, optimum)
+    if best is not None:
+        title = f"best swarm: {best['swarm']}, {best['coding']}, {best['seconds']:.4f} s"
+        motion = family.trajectory(problem, durations_of(best))
+    claim = best_claim(rows)
+    claimed: Trajectory | None = None
+    if claim is not None:
+        # the row keeps the durations of the verified motion; the claim is faster by one factor
+        scale = claim["claimed"] / claim["seconds"]
+        claimed = family.trajectory(problem, durations_of(claim) * scale)
+
+    unit = 180.0 / np.pi if problem.display_unit == "deg" else 1.0
+    joints = problem.moving_joints
+    figure, grid = plt.subplots(
+        4, len(joints), figsize=(1.2 + 2.0 * len(joints), 7.2), sharex=True, squeeze=False
+    )
+    for column, j in enumerate(joints):
+        for order, (name, per) in enumerate(_QUANTITIES):
+            axes = grid[order][column]
+            _curves(axes, problem, motion, claimed, j, order, unit)
+            if column == 0:
+                axes.set_ylabel(f"{name}\n[{problem.display_unit}{per}]")
+            axes.tick_params(labelsize=7)
+        grid[0][column].set_title(f"joint {j + 1}", fontsize=9)
+        grid[3][column].set_xlabel("time [s]")
+    handles = [plt.Line2D([], [], color=BLUE, lw=1.4), plt.Line2D([], [], color=BLACK, lw=0.8, ls="--")]
+    labels = [title, "limit"]
+    if claimed is not None and claim is not None:
+        verdict = check(problem, claimed)
+        ends = "keeps the limits" if verdict.feasible else f"breaks limits: {verdict.worst}"
+        handles.append(plt.Line2D([], [], color=VERMILION, lw=1.0))
+        labels.append(
+            f"papers' coding ({claim['swarm']}), as claimed, {claim['claimed']:.4f} s: {ends}"
+        )
+    figure.legend(handles, labels, loc="outside upper left", fontsize=8, frameon=False)
+    return figure
+
+
+def _curves(
+    axes: Axes,
+    problem: Problem,
+    motion: Trajectory,
+    claimed: Trajectory | None,
+    joint: int,
+    order: int,
+    unit: float,
+) -> None:
+    """One joint, one quantity."""
+    t, x = _samples(motion, joint, order)
+    low, high = (
+        problem.position_bounds[joint]
+        if order == 0
+        else np.array([-1.0, 1.0]) * problem.limits.derivatives[order - 1, joint]
+    )
+    extent = np.abs(x).max()
+    if claimed is not None:
+        tc, xc = _samples(claimed, joint, order)
+        axes.plot(tc, xc * unit, color=VERMILION, lw=0.9, alpha=0.8)
+        over = np.where((xc > high * (1 + 1e-6)) | (xc < low * (1 + 1e-6)), xc, np.nan)
+        axes.plot(tc, over * unit, color=VERMILION, lw=3.0)
+        extent = max(extent, np.abs(xc).max())
+    axes.plot(t, x * unit, color=BLUE, lw=1.4)
+    for limit in (low, high):
+        # a position limit far away would flatten the curve
+        if np.isfinite(limit) and (order > 0 or abs(limit) < 2.0 * extent):
+            axes.axhline(limit * unit, color=BLACK, lw=0.8, ls="--")
+    if order == 0:
+        axes.plot(motion.passage_times, problem.waypoints[:, joint] * unit, "o", color=BLUE, ms=3)
+    for passage in motion.passage_times[1:-1]:
+        axes.axvline(passage, color=GREY, lw=0.4, alpha=0.6)
+
+
+def _samples(motion: Trajectory, joint: int, order: int) -> tuple[Array, Array]:
+    """Curve points for drawing; pieces are kept apart, so that jumps of the jerk are upright."""
+    s = np.linspace(1e-9, 1.0 - 1e-9, 60)
+    t = (motion.breaks[:-1, None] + motion.durations[:, None] * s).ravel()
+    return t, motion.at(t, order)[:, joint]

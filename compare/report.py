@@ -1,0 +1,182 @@
+"""``python -m compare.report DIR``: the report of a comparison, rendered from its store alone."""
+
+from __future__ import annotations
+
+import base64
+from pathlib import Path
+from typing import Any
+
+import jinja2
+import numpy as np
+
+from compare import commands
+from compare.figures import RUNG_NAMES, draw_case
+from compare.objective import CODINGS
+from compare.run import each, workers
+from compare.statistics import Summary, best_claim, best_row, summaries
+from compare.store import Store
+from formulations import InputError, Problem, load
+from formulations.ladder import MEANINGS
+from metaheuristics import ALGORITHMS
+
+FIGURES = {
+    "ladder": "Every bound and the best swarm results on one time axis.",
+    "gaps": "Gap of every seed; hollow marks: the motion, as claimed, breaks its limits.",
+    "motion": "The best motion with its limits, and the best claim in the papers' coding (red).",
+    "convergence": "Gap against evaluations.",
+}
+
+LIMITATIONS = [
+    "The reference of every gap is the best of ten local solves of the exact NLP. It agrees with an "
+    "independent global search on every shipped 3-5-3 case, but it is an upper bound, not a proof; "
+    "certified lower bounds of the families are not part of this release.",
+    "The papers print no search box (but 003) and no way to treat velocities at its walls: the box, "
+    "the clamp and every other reading are stated in compare/objective.py and metaheuristics.",
+    "The limits of bagging and cobot are assumed, as their files say: those papers print none.",
+    "The waypoints of ur5 are used as printed; its Cartesian points are out of the arm's reach.",
+    "TOPP-RA's times are those of a discretised path, with the stated grid error, and have no jerk "
+    "limit. They are references, not bounds.",
+    "Only joint limits count: no torques, no collisions, no Cartesian path.",
+]
+
+
+def render(folder: Path, problems: dict[str, Problem], settings: dict[str, Any], jobs: int) -> Path:
+    """Figures, index.html, report.md from the store in ``folder``; returns the path of the page."""
+    store = Store(folder)
+    rows, ladders = store.rows(), store.ladders()
+    with workers(jobs) as pool:
+        calls = [(str(folder), case, problem) for case, problem in problems.items()]
+        for _ in each(pool, "figures", draw_case, calls):
+            pass
+    context = _context(rows, ladders, problems, settings)
+    context["figures"] = {
+        case: {
+            name: (f"figures/{case}-{name}", caption) for name, caption in FIGURES.items()
+        }
+        for case in problems
+    }
+    environment = jinja2.Environment(
+        loader=jinja2.PackageLoader("compare"),
+        autoescape=jinja2.select_autoescape(["html.j2"]),
+        trim_blocks=True,
+        lstrip_blocks=True,
+        undefined=jinja2.StrictUndefined,
+    )
+    environment.filters["percent"] = percent
+    environment.globals["inline"] = lambda name: _inline(folder / f"{name}.svg")
+    environment.globals["shade"] = _shade
+    for name in ("report.md", "index.html"):
+        commands.write_text(folder / name, environment.get_template(f"{name}.j2").render(context))
+    return folder / "index.html"
+
+
+def percent(gap: float | None) -> str:
+    """A gap for people: 8.2 %, 0.013 %, 3e-06 %; anything at rounding is 0 %."""
+    if gap is None:
+        return "none"
+    value = 100.0 * gap
+    if abs(value) < 1e-8:
+        return "0 %"
+    if abs(value) < 1e-3:
+        return f"{value:.0e} %"
+    return f"{value:.2g} %" if abs(value) < 10 else f"{value:.0f} %"
+
+
+def _context(
+    rows: list[dict[str, Any]],
+    ladders: dict[str, dict[str, Any]],
+    problems: dict[str, Problem],
+    settings: dict[str, Any],
+) -> dict[str, Any]:
+    found = summaries(rows)
+    cases = [case for case in problems if case in ladders]
+    codings = [c for c in CODINGS if any(row["coding"] == c for row in rows)]
+    swarms = [s for s in ALGORITHMS if any(row["swarm"] == s for row in rows)]
+    return {
+        "cases": cases,
+        "problems": problems,
+        "codings": {c: CODINGS[c] for c in codings},
+        "swarms": {s: ALGORITHMS[s] for s in swarms},
+        "summaries": found,
+        "ladders": ladders,
+        "rungs": RUNG_NAMES,
+        "meanings": MEANINGS,
+        "headlines": [_headline(case, ladders[case], rows, found) for case in cases],
+        "rows": len(rows),
+        "faults": _faults(rows),
+        "settings": settings,
+        "machine": rows[0]["machine"] if rows else "",
+        "versions": rows[0]["versions"] if rows else "",
+        "limitations": LIMITATIONS,
+    }
+
+
+def _headline(
+    case: str,
+    ladder: dict[str, Any],
+    rows: list[dict[str, Any]],
+    found: dict[tuple[str, str, str], Summary],
+) -> dict[str, Any]:
+    """One line per case: the optimum, the papers' best claim and what is left of it."""
+    mine = [row for row in rows if row["case"] == case]
+    published = [s for (c, coding, _), s in found.items() if c == case and coding == "published"]
+    gaps = [s.gap for s in published if s.gap is not None]
+    return {
+        "case": case,
+        "optimum": ladder["ladder"]["family"]["seconds"],
+        "claim": best_claim(mine),
+        "stretched": best_row(mine, coding="stretched"),
+        "breaking": sum(s.breaking for s in published),
+        "published": sum(s.seeds for s in published),
+        "gap": float(np.median(gaps)) if gaps else None,
+    }
+
+
+def _faults(rows: list[dict[str, Any]]) -> list[tuple[str, int, str]]:
+    """Every status but ok: how often, and one note."""
+    statuses = sorted({row["status"] for row in rows} - {"ok"})
+    return [
+        (
+            status,
+            sum(row["status"] == status for row in rows),
+            next(row["note"] for row in rows if row["status"] == status),
+        )
+        for status in statuses
+    ]
+
+
+def _shade(gap: float | None) -> str:
+    """CSS class of a gap; five steps that differ in lightness too."""
+    if gap is None:
+        return "none"
+    for name, most in (("g0", 1e-6), ("g1", 1e-4), ("g2", 1e-2), ("g3", 5e-2)):
+        if gap <= most:
+            return name
+    return "g4"
+
+
+def _inline(path: Path) -> str:
+    return "data:image/svg+xml;base64," + base64.b64encode(path.read_bytes()).decode()
+
+
+def main() -> int:
+    """Render again, without running anything."""
+    parser = commands.parser(
+        "report", "Draw the report of a comparison again, from its rows.", "python -m compare.report report"
+    )
+    parser.add_argument("folder", metavar="DIR", help="folder that compare.all wrote")
+    parser.add_argument("--jobs", type=int, default=2, help="worker processes")
+    options = parser.parse_args()
+    folder = Path(options.folder)
+    store = Store(folder)
+    ladders = store.ladders()
+    if not ladders:
+        raise InputError(f"{folder}: holds no comparison (python -m compare.all --out {folder})")
+    problems = {case: load(case) for case in ladders}
+    page = render(folder, problems, store.settings(), commands.positive("--jobs", options.jobs))
+    print(f"report: {page}")
+    return commands.DONE
+
+
+if __name__ == "__main__":
+    commands.run(main)
