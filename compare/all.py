@@ -61,6 +61,7 @@ def main() -> int:
     budgets = sorted({run.budget for run in runs})
     settings = {
         "size": name,
+        "cases": cases,
         "seeds": max(run.seed for run in runs) + 1,
         "budget": " or ".join(str(budget) for budget in budgets) + " evaluations",
     }

@@ -3,17 +3,16 @@
 from __future__ import annotations
 
 from collections.abc import Callable
+from functools import wraps
 from pathlib import Path
-from typing import Any
+from typing import Any, ParamSpec
 
 import matplotlib as mpl
-
-mpl.use("Agg")
-
 import matplotlib.pyplot as plt
 import numpy as np
 from matplotlib.axes import Axes
 from matplotlib.figure import Figure
+from matplotlib.lines import Line2D
 
 from compare.grade import Trace, durations_of
 from compare.statistics import best_claim, best_row, convergence
@@ -26,12 +25,16 @@ BLACK, ORANGE, SKY, GREEN, YELLOW, BLUE, VERMILION, PURPLE = (
     "#000000", "#E69F00", "#56B4E9", "#009E73", "#F0E442", "#0072B2", "#D55E00", "#CC79A7",
 )  # fmt: skip
 GREY = "#888888"
-CODING_STYLE = {"published": (VERMILION, "s"), "shared": (SKY, "o"), "stretched": (BLUE, "D")}
+CODING_STYLE: dict[Any, Any] = {
+    "published": (VERMILION, "s"),
+    "shared": (SKY, "o"),
+    "stretched": (BLUE, "D"),
+}
 SWARM_STYLE = [
     (GREY, "-"), (BLACK, "-"), (BLACK, "--"), (BLACK, ":"), (BLUE, "-"),
     (SKY, "-"), (SKY, "--"), (SKY, ":"), (PURPLE, "-"), (ORANGE, "-"),
 ]  # fmt: skip
-KIND_STYLE = {"lower": (BLUE, ">"), "upper": (GREEN, "o"), "reference": (PURPLE, "D")}
+KIND_STYLE: dict[Any, Any] = {"lower": (BLUE, ">"), "upper": (GREEN, "o"), "reference": (PURPLE, "D")}
 SMALLEST = 1e-12  # gaps below are drawn here: rounding
 
 RUNG_NAMES = {
@@ -48,7 +51,7 @@ RUNG_NAMES = {
     "copp_family_path": "COPP, path of the optimum",
 }
 
-_STYLE = {
+_STYLE: dict[Any, Any] = {
     "font.size": 9,
     "axes.spines.top": False,
     "axes.spines.right": False,
@@ -69,20 +72,35 @@ def draw_case(folder: str, case: str, problem: Problem) -> list[str]:
         "convergence": lambda: convergence_figure(problem, ladder, rows, store.traces()),
         "motion": lambda: motion_figure(problem, ladder, rows),
     }
+    mpl.use("Agg")  # a worker has no screen
     target = Path(folder) / "figures"
     target.mkdir(exist_ok=True)
     names = []
-    with mpl.rc_context(_STYLE):
-        for name, make in draw.items():
-            figure = make()
-            for ending in ("svg", "png"):
-                metadata = {"Date": None} if ending == "svg" else None
-                figure.savefig(target / f"{case}-{name}.{ending}", metadata=metadata)
-            plt.close(figure)
-            names.append(f"{case}-{name}")
+    for name, make in draw.items():
+        figure = make()
+        with mpl.rc_context(_STYLE):
+            figure.savefig(target / f"{case}-{name}.svg", metadata={"Date": None})
+            figure.savefig(target / f"{case}-{name}.png")
+        plt.close(figure)
+        names.append(f"{case}-{name}")
     return names
 
 
+P = ParamSpec("P")
+
+
+def _styled(draw: Callable[P, Figure]) -> Callable[P, Figure]:
+    """Draw in the report's style wherever the function is called."""
+
+    @wraps(draw)
+    def styled(*args: P.args, **kwargs: P.kwargs) -> Figure:
+        with mpl.rc_context(_STYLE):
+            return draw(*args, **kwargs)
+
+    return styled
+
+
+@_styled
 def ladder_figure(problem: Problem, ladder: dict[str, Any], rows: list[dict[str, Any]]) -> Figure:
     """Every bound and the best swarm results on one time axis."""
     entries = [
@@ -102,7 +120,12 @@ def ladder_figure(problem: Problem, ladder: dict[str, Any], rows: list[dict[str,
     stretched = best_row(rows, coding="stretched")
     if stretched is not None:
         entries.append(
-            (f"best swarm, stretched coding ({stretched['swarm']})", stretched["seconds"], ORANGE, "o")
+            (
+                f"best swarm, stretched coding ({stretched['swarm']})",
+                stretched["seconds"],
+                ORANGE,
+                "o",
+            )
         )
     entries.sort(key=lambda entry: entry[1])
     optimum = ladder["ladder"]["family"]["seconds"]
@@ -128,6 +151,7 @@ def ladder_figure(problem: Problem, ladder: dict[str, Any], rows: list[dict[str,
     return figure
 
 
+@_styled
 def gap_figure(problem: Problem, rows: list[dict[str, Any]]) -> Figure:
     """Gap of every seed of every swarm in every coding; hollow: the claimed motion breaks limits."""
     swarms = list(dict.fromkeys(row["swarm"] for row in rows))
@@ -169,6 +193,7 @@ def gap_figure(problem: Problem, rows: list[dict[str, Any]]) -> Figure:
     return figure
 
 
+@_styled
 def convergence_figure(
     problem: Problem,
     ladder: dict[str, Any],
@@ -180,9 +205,7 @@ def convergence_figure(
     codings = list(dict.fromkeys(row["coding"] for row in rows))
     optima = {-1: ladder["ladder"]["family"]["seconds"]}
     optima |= {j: s for j, s in enumerate(ladder["alone"]) if s is not None}
-    figure, panels = plt.subplots(
-        1, len(codings), figsize=(10.5, 3.9), sharey=True, squeeze=False
-    )
+    figure, panels = plt.subplots(1, len(codings), figsize=(10.5, 3.9), sharey=True, squeeze=False)
     for axes, coding in zip(panels[0], codings, strict=True):
         for index, swarm in enumerate(swarms):
             group = [r for r in rows if r["swarm"] == swarm and r["coding"] == coding]
@@ -195,8 +218,8 @@ def convergence_figure(
             axes.plot(grid[shown], np.maximum(middle[shown], SMALLEST), line,
                       color=colour, lw=1.4, label=swarm)  # fmt: skip
             band = shown & np.isfinite(high)
-            axes.fill_between(grid[band], np.maximum(low[band], SMALLEST),
-                              np.maximum(high[band], SMALLEST), color=colour, alpha=0.08, lw=0)  # fmt: skip
+            low, high = np.maximum(low[band], SMALLEST), np.maximum(high[band], SMALLEST)
+            axes.fill_between(grid[band], low, high, color=colour, alpha=0.08, lw=0)
         axes.set_xscale("log")
         axes.set_yscale("log")
         per = " of each joint" if coding == "published" else ""
@@ -217,9 +240,11 @@ def convergence_figure(
 _QUANTITIES = (("position", ""), ("velocity", "/s"), ("acceleration", "/s²"), ("jerk", "/s³"))
 
 
+@_styled
 def motion_figure(problem: Problem, ladder: dict[str, Any], rows: list[dict[str, Any]]) -> Figure:
     """Position to jerk of the best motion with the limits drawn in; and of the papers' coding, as
-    claimed, red where it breaks them."""
+    claimed, red where it breaks them.
+    """
     family = FAMILIES[problem.family]
     best = best_row(rows)
     optimum = np.array(ladder["durations"]["family"])
@@ -248,12 +273,15 @@ def motion_figure(problem: Problem, ladder: dict[str, Any], rows: list[dict[str,
             axes.tick_params(labelsize=7)
         grid[0][column].set_title(f"joint {j + 1}", fontsize=9)
         grid[3][column].set_xlabel("time [s]")
-    handles = [plt.Line2D([], [], color=BLUE, lw=1.4), plt.Line2D([], [], color=BLACK, lw=0.8, ls="--")]
+    handles = [
+        Line2D([], [], color=BLUE, lw=1.4),
+        Line2D([], [], color=BLACK, lw=0.8, ls="--"),
+    ]
     labels = [title, "limit"]
     if claimed is not None and claim is not None:
         verdict = check(problem, claimed)
         ends = "keeps the limits" if verdict.feasible else f"breaks limits: {verdict.worst}"
-        handles.append(plt.Line2D([], [], color=VERMILION, lw=1.0))
+        handles.append(Line2D([], [], color=VERMILION, lw=1.0))
         labels.append(
             f"papers' coding ({claim['swarm']}), as claimed, {claim['claimed']:.4f} s: {ends}"
         )

@@ -111,7 +111,9 @@ def _judged(
     note = faults[0].note if faults else ""
     vectors = [result.x for result in results]
     found = [
-        objective.durations(x) for objective, x in zip(objectives, vectors, strict=True) if x is not None
+        objective.durations(x)
+        for objective, x in zip(objectives, vectors, strict=True)
+        if x is not None
     ]
     if len(found) < len(vectors) or not found:
         missing = f"{len(vectors) - len(found)} of {len(vectors)} searches found nothing feasible"

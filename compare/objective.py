@@ -1,9 +1,9 @@
 """Codings: how a swarm's vector becomes a motion, and what the swarm is told about it.
 
-    published   each joint alone, durations of its own; infeasible = worst fitness; in the end the
-                longest time per segment over the joints (000, 001, 002)
-    shared      one vector of durations for all joints; the same penalty
-    stretched   one vector of durations; every shape is stretched exactly to feasibility first
+published   each joint alone, durations of its own; infeasible = worst fitness; in the end the
+            longest time per segment over the joints (000, 001, 002)
+shared      one vector of durations for all joints; the same penalty
+stretched   one vector of durations; every shape is stretched exactly to feasibility first
 """
 
 from __future__ import annotations
@@ -51,7 +51,7 @@ class Objective:
     def __call__(self, durations: Array) -> Array:
         """Fitness of a population."""
         family = FAMILIES[self.problem.family]
-        total = durations.sum(axis=1)
+        total = np.asarray(durations.sum(axis=1))
         factor = family.stretch(self.problem, durations)
         if self.stretch:
             total *= factor

@@ -15,7 +15,7 @@ from compare.objective import CODINGS
 from compare.run import each, workers
 from compare.statistics import Summary, best_claim, best_row, summaries
 from compare.store import Store
-from formulations import InputError, Problem, load
+from formulations import Problem, load
 from formulations.ladder import MEANINGS
 from metaheuristics import ALGORITHMS
 
@@ -50,9 +50,7 @@ def render(folder: Path, problems: dict[str, Problem], settings: dict[str, Any],
             pass
     context = _context(rows, ladders, problems, settings)
     context["figures"] = {
-        case: {
-            name: (f"figures/{case}-{name}", caption) for name, caption in FIGURES.items()
-        }
+        case: {name: (f"figures/{case}-{name}", caption) for name, caption in FIGURES.items()}
         for case in problems
     }
     environment = jinja2.Environment(
@@ -78,7 +76,7 @@ def percent(gap: float | None) -> str:
     if abs(value) < 1e-8:
         return "0 %"
     if abs(value) < 1e-3:
-        return f"{value:.0e} %"
+        return f"{value:.0e} %".replace("e-0", "e-")
     return f"{value:.2g} %" if abs(value) < 10 else f"{value:.0f} %"
 
 
@@ -162,18 +160,19 @@ def _inline(path: Path) -> str:
 def main() -> int:
     """Render again, without running anything."""
     parser = commands.parser(
-        "report", "Draw the report of a comparison again, from its rows.", "python -m compare.report report"
+        "report",
+        "Draw the report of a comparison again, from its rows.",
+        "python -m compare.report report",
     )
     parser.add_argument("folder", metavar="DIR", help="folder that compare.all wrote")
     parser.add_argument("--jobs", type=int, default=2, help="worker processes")
     options = parser.parse_args()
     folder = Path(options.folder)
     store = Store(folder)
-    ladders = store.ladders()
-    if not ladders:
-        raise InputError(f"{folder}: holds no comparison (python -m compare.all --out {folder})")
-    problems = {case: load(case) for case in ladders}
-    page = render(folder, problems, store.settings(), commands.positive("--jobs", options.jobs))
+    jobs = commands.positive("--jobs", options.jobs)
+    settings = store.settings()
+    problems = {case: load(case) for case in settings["cases"]}
+    page = render(folder, problems, settings, jobs)
     print(f"report: {page}")
     return commands.DONE
 

@@ -80,12 +80,7 @@ def swarm(
     }
     left = [run for run in runs if run.key not in finished]
     batches = [left[i : i + _BATCH] for i in range(0, len(left), _BATCH)]
-    calls = [
-        (
-            [(run, problems[run.case], bounds[run.case]) for run in batch],
-        )
-        for batch in batches
-    ]
+    calls = [([(run, problems[run.case], bounds[run.case]) for run in batch],) for batch in batches]
     for graded in each(pool, f"swarms (x{_BATCH} runs)", _grades, calls):
         for one in graded:
             store.add(one, facts[one.run.case])

@@ -41,25 +41,23 @@ def main() -> int:
 
 
 def as_text(answer: Ladder) -> str:
-    """The ladder as a plain table, shortest time first; rungs without a number last."""
-    rungs = sorted(
-        answer.rungs.values(), key=lambda r: (r.seconds is None, r.seconds or 0.0)
-    )
-    rows = [
-        [
-            rung.key,
-            rung.kind,
-            f"{rung.seconds:.6f} s" if rung.seconds is not None else rung.status,
-            "proved" if rung.certified and rung.kind == "lower"
-            else "verified" if rung.certified else "",
-            f"{rung.runtime:.2f} s",
-            MEANINGS[rung.key][1] + (f" ({rung.note})" if rung.note else ""),
-        ]
-        for rung in rungs
-    ]
-    return commands.table(
-        ["rung", "kind", "time", "", "took", "what it is"], rows, right=(2, 4)
-    )
+    """The ladder as a plain table, shortest time first; rungs without a number last, with reasons."""
+    rungs = sorted(answer.rungs.values(), key=lambda r: (r.seconds is None, r.seconds or 0.0))
+    rows = []
+    for rung in rungs:
+        proof = {"lower": "proved", "upper": "verified", "reference": "discretised"}[rung.kind]
+        rows.append(
+            [
+                rung.key,
+                "-" if rung.seconds is None else f"{rung.seconds:.6f} s",
+                proof if rung.status == "ok" else rung.status,
+                f"{rung.runtime:.2f} s",
+                MEANINGS[rung.key][1],
+            ]
+        )
+    notes = [f"  {rung.key}: {rung.note}" for rung in rungs if rung.note]
+    header = ["rung", "time", "status", "took", "what it is"]
+    return "\n".join([commands.table(header, rows, right=(1, 3)), "", "notes", *notes])
 
 
 if __name__ == "__main__":

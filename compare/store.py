@@ -136,8 +136,15 @@ class Store:
         commands.write_json(self.folder / "settings.json", settings)
 
     def settings(self) -> dict[str, Any]:
-        """What was asked for."""
-        return dict(json.loads((self.folder / "settings.json").read_text("utf-8")))
+        """What was asked for. Raises InputError if the folder holds no comparison."""
+        try:
+            found = json.loads((self.folder / "settings.json").read_text("utf-8"))
+            known = {"size": str, "cases": list, "seeds": int, "budget": str}
+            if {name: type(found[name]) for name in known} != known:
+                raise ValueError("unexpected entries")
+        except (OSError, ValueError, KeyError, TypeError) as error:
+            raise InputError(f"{self.folder}: holds no comparison: {error}") from None
+        return dict(found)
 
     def write_ladder(self, case: str, ladder: dict[str, Any]) -> None:
         """Keep the ladder of a case."""

@@ -7,5 +7,5 @@ class InputError(ValueError):
     """Something a person typed or wrote into a file cannot be used; commands exit with code 2."""
 
 
-class UnsupportedProblem(InputError):
+class UnsupportedProblem(InputError):  # noqa: N818  # a refusal, not a failure
     """The problem is legal, but this family or reference has no meaning for it."""

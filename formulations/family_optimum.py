@@ -19,6 +19,7 @@ from __future__ import annotations
 from collections.abc import Callable
 from dataclasses import dataclass
 from functools import cached_property
+from typing import Any
 
 import casadi
 import numpy as np
@@ -34,7 +35,7 @@ _EXCHANGES = 20  # rounds of exchange before a start is given up as not converge
 _CONVERGED = 1e-10  # relative excess of the exact peaks over the posed ones
 _SHORTEST = 1e-8  # least duration of a segment, as a share of the displacement bound
 
-_IPOPT = {
+_IPOPT: dict[str, Any] = {
     "ipopt.print_level": 0,
     "ipopt.sb": "yes",
     "print_time": False,
@@ -87,7 +88,7 @@ class FamilyOptimum:
         return sum(start.seconds <= self.seconds * (1.0 + 1e-7) for start in self.starts)
 
 
-class NoFeasibleMotion(RuntimeError):
+class NoFeasibleMotion(RuntimeError):  # noqa: N818  # the answer, in a word
     """No start of the solver ended in a motion that keeps the position limits."""
 
 
@@ -180,7 +181,7 @@ def shortest_segments(problem: Problem) -> Array:
     each = np.maximum.reduce(
         [d / limits.velocity, np.sqrt(d / limits.acceleration), np.cbrt(d / limits.jerk)]
     ).max(axis=1)
-    return np.maximum(each, _SHORTEST * max(float(each.sum()), 1e-300))
+    return np.asarray(np.maximum(each, _SHORTEST * max(float(each.sum()), 1e-300)))
 
 
 def _guesses(problem: Problem, random_starts: int, seed: int) -> list[Array]:
@@ -280,7 +281,7 @@ class _Program:
         return Start(best, best_seconds, status, exchange)
 
     def _feasible(self, durations: Array) -> Array:
-        return durations * self.family.stretch(self.problem, durations[None])[0]
+        return np.asarray(durations * self.family.stretch(self.problem, durations[None])[0])
 
     def _extremes(self, durations: Array, follow: bool) -> Array:
         """Where the rows are posed: normalised time, and whether it follows its extreme."""

@@ -7,10 +7,11 @@ import platform
 import time
 from collections.abc import Callable
 from dataclasses import dataclass, field
+from functools import partial
 from typing import Any, Literal
 
-
 from formulations.errors import UnsupportedProblem
+from formulations.families import FAMILIES
 from formulations.family_optimum import (
     FamilyOptimum,
     NoFeasibleMotion,
@@ -20,7 +21,6 @@ from formulations.family_optimum import (
 )
 from formulations.problem import Array, Problem
 from formulations.references import REFERENCES, Outcome, toppra_on
-from formulations.families import FAMILIES
 from formulations.trajectory import Trajectory, check
 
 Kind = Literal["lower", "upper", "reference"]
@@ -112,7 +112,7 @@ class _Climb:
 
     def run(self) -> Ladder:
         for key in ("displacement", "ruckig_end_to_end", "ruckig_stop_and_go"):
-            self._add(key, lambda key=key: REFERENCES[key](self.problem))
+            self._add(key, partial(REFERENCES[key], self.problem))
         self._add("free_form_lower", self._best_lower)
         self._add("free_form", lambda: Outcome.not_applicable(_NOT_BUILT))
         self._add("family_lower", lambda: Outcome.not_applicable(_NOT_BUILT))

@@ -189,7 +189,9 @@ def _numbers(key: str, values: Any) -> Array:
     try:
         return np.array(values, dtype=np.float64)
     except (TypeError, ValueError):
-        raise InputError(f"{key}: expected numbers in rows of equal length, got {values!r:.80}") from None
+        raise InputError(
+            f"{key}: expected numbers in rows of equal length, got {values!r:.80}"
+        ) from None
 
 
 def _per_joint(key: str, values: ArrayLike, dof: int) -> Array:

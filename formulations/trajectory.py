@@ -100,6 +100,15 @@ class Trajectory:
 
     def extremes(self, order: int) -> Extremes:
         """Exact extremes of the derivative of the given order (0: position) on every piece."""
+        if order not in self._extremes:
+            self._extremes[order] = self._find_extremes(order)
+        return self._extremes[order]
+
+    @cached_property
+    def _extremes(self) -> dict[int, Extremes]:
+        return {}
+
+    def _find_extremes(self, order: int) -> Extremes:
         value = _differentiated(self._normalised, order)
         candidates = np.concatenate(
             [
@@ -130,7 +139,7 @@ class Trajectory:
         """Largest jump per joint of position, velocity, acceleration at inner breaks, (3, dof)."""
         ends = np.stack([self._edge(order, 1.0)[:-1] for order in range(3)])
         starts = np.stack([self._edge(order, 0.0)[1:] for order in range(3)])
-        return np.abs(starts - ends).max(axis=1, initial=0.0)
+        return np.asarray(np.abs(starts - ends).max(axis=1, initial=0.0))
 
     def _edge(self, order: int, s: float) -> Array:
         value = _differentiated(self._normalised, order)
@@ -211,31 +220,34 @@ def check(problem: Problem, trajectory: Trajectory, *, through: bool = True) -> 
     else:
         miss = np.abs(trajectory.at(times) - targets)
         if miss.max() > tolerance:
-            row, joint = np.unravel_index(int(miss.argmax()), miss.shape)
+            row, joint = divmod(int(miss.argmax()), problem.dof)
             faults.append(f"misses waypoint {row + 1}, joint {joint + 1} by {miss.max():.3g} rad")
 
     # continuity and rest; acceleration too where jerk is limited
     scales = [np.full(problem.dof, tolerance), TOLERANCE * limits.velocity]
     orders = [0, 1]
     if limits.has_jerk:
-        scales.append(TOLERANCE * np.where(np.isfinite(limits.jerk), limits.acceleration, np.inf))
+        known = np.where(np.isfinite(limits.acceleration), limits.acceleration, 0.0)
+        scales.append(np.where(np.isfinite(limits.jerk), TOLERANCE * known, np.inf))
         orders.append(2)
     for order, scale in zip(orders, scales, strict=True):
+        # rounding grows with the size of the motion itself; 1e-300 for joints that never move
+        allowed = np.maximum(scale, TOLERANCE * _size(trajectory, order)) + 1e-300
         jump = trajectory.jumps[order]
-        if (jump > np.maximum(scale, TOLERANCE * _size(trajectory, order))).any():
-            joint = int(np.argmax(jump))
+        if (jump > allowed).any():
+            joint = int(np.argmax(jump / allowed))
             faults.append(f"{QUANTITIES[order]} of joint {joint + 1} jumps by {jump[joint]:.3g}")
         if order > 0:
             ends = np.abs(trajectory.at([0.0, trajectory.seconds], order)).max(axis=0)
-            if (ends > np.maximum(scale, TOLERANCE * _size(trajectory, order))).any():
-                joint = int(np.argmax(ends))
+            if (ends > allowed).any():
+                joint = int(np.argmax(ends / allowed))
                 faults.append(
                     f"{QUANTITIES[order]} of joint {joint + 1} is {ends[joint]:.3g} at an end"
                 )
 
     peaks = sorted(
         _peaks(problem, trajectory),
-        key=lambda peak: (peak.stretch if np.isfinite(peak.stretch) else peak.factor),
+        key=lambda peak: peak.stretch if np.isfinite(peak.stretch) else peak.factor,
         reverse=True,
     )
     faults += [f"over the limit: {peak}" for peak in peaks if peak.factor > 1.0 + TOLERANCE]
@@ -272,24 +284,22 @@ def _peaks(problem: Problem, trajectory: Trajectory) -> list[Peak]:
         slack = 1e-13 * (1.0 + np.abs(problem.waypoints).max()) + TOLERANCE * width
         below, above = low - slack - extremes.low, extremes.high - high - slack
         for excess, is_high in ((below, False), (above, True)):
-            piece, joint = np.unravel_index(int(excess.argmax()), excess.shape)
+            piece, joint = divmod(int(excess.argmax()), problem.dof)
             limit = float((high if is_high else low)[joint])
             if np.isfinite(limit):
                 # strictly inside counts as exactly 1: a position is kept or not
                 factor = 1.0 + max(float(excess[piece, joint]), 0.0) / float(width[joint])
-                found.append(peak(0, int(piece), int(joint), is_high, limit, factor))
+                found.append(peak(0, piece, joint, is_high, limit, factor))
     for order in (1, 2, 3):
         if not np.isfinite(limits[order - 1]).any():
             continue
         extremes = trajectory.extremes(order)
         upper, lower = extremes.high / limits[order - 1], -extremes.low / limits[order - 1]
         ratio = np.maximum(upper, lower)
-        piece, joint = np.unravel_index(int(ratio.argmax()), ratio.shape)
+        piece, joint = divmod(int(ratio.argmax()), problem.dof)
         is_high = bool(upper[piece, joint] >= lower[piece, joint])
         limit = float(limits[order - 1, joint])
-        found.append(
-            peak(order, int(piece), int(joint), is_high, limit, float(ratio[piece, joint]))
-        )
+        found.append(peak(order, piece, joint, is_high, limit, float(ratio[piece, joint])))
     return found
 
 
@@ -331,24 +341,32 @@ def _turning_points(slopes: Array) -> Array:
             roots = np.stack([h / a, c / h], axis=-1)
         else:
             flat = slopes.reshape(-1, width)
-            roots = np.stack([_roots(row) for row in flat]).reshape(*slopes.shape[:-1], width - 1)
+            roots = _companion_roots(flat).reshape(*slopes.shape[:-1], width - 1)
     return np.clip(np.nan_to_num(roots, nan=0.0), 0.0, 1.0)
 
 
-def _roots(row: Array) -> Array:
-    """Real parts of the roots of one polynomial, polished by Newton, padded with 0."""
-    found = np.zeros(len(row) - 1)
-    scale = np.abs(row).max()
-    if scale == 0.0:
-        return found
+def _companion_roots(rows: Array) -> Array:
+    """Real parts of all roots of the polynomials (m, k), within [0, 1]: (m, k - 1), 0 where none.
+
+    Eigenvalues of companion matrices, polished by Newton.
+    """
+    found = np.zeros((len(rows), rows.shape[1] - 1))
     # leading coefficients that are rounding dust only move roots far outside [0, 1]
-    degree = int(np.flatnonzero(np.abs(row) > 1e-15 * scale)[-1])
-    if degree == 0:
-        return found
-    roots = np.polynomial.polynomial.polyroots(row[: degree + 1]).real.clip(0.0, 1.0)
-    slope = _differentiated(row, 1)
-    for _ in range(3):
-        step = _evaluated(row, roots) / _evaluated(slope, roots)
-        roots = np.clip(np.where(np.isfinite(step), roots - step, roots), 0.0, 1.0)
-    found[:degree] = roots
+    size = np.abs(rows).max(axis=1, keepdims=True)
+    significant = np.abs(rows) > 1e-15 * size
+    degrees = np.where(
+        significant.any(axis=1), rows.shape[1] - 1 - significant[:, ::-1].argmax(axis=1), 0
+    )
+    for degree in np.unique(degrees[degrees > 0]):
+        mine = np.flatnonzero(degrees == degree)
+        polynomials = rows[mine, : degree + 1]
+        companion = np.zeros((len(mine), degree, degree))
+        companion[:, 1:, :-1] = np.eye(degree - 1)
+        companion[:, :, -1] = -polynomials[:, :-1] / polynomials[:, -1:]
+        roots = np.linalg.eigvals(companion).real.clip(0.0, 1.0)
+        slopes = _differentiated(rows[mine], 1)
+        for _ in range(3):
+            step = _evaluated(rows[mine], roots) / _evaluated(slopes, roots)
+            roots = np.clip(np.where(np.isfinite(step), roots - step, roots), 0.0, 1.0)
+        found[mine, :degree] = roots
     return found

@@ -148,9 +148,7 @@ def minimise(
     lower, upper = _box(lo, hi)
     budget = _budget(budget)
     archive = _Archive()
-    task = Task(
-        _read_only(lower), _read_only(upper), _rng(seed), lambda: archive.evaluations / budget
-    )
+    task = Task(_read_only(lower), _read_only(upper), _rng(seed), lambda: archive.evaluations / budget)
     moves = algorithm(task, **parameters)
     status, note = Status.ok, ""
     seconds_algorithm = seconds_objective = 0.0
@@ -262,9 +260,7 @@ def _budget(budget: int) -> int:
 def _rng(seed: int | np.random.SeedSequence) -> np.random.Generator:
     """Return a generator that depends on the seed's value, not on what it spawned before."""
     if isinstance(seed, np.random.SeedSequence):
-        seed = np.random.SeedSequence(
-            seed.entropy, spawn_key=seed.spawn_key, pool_size=seed.pool_size
-        )
+        seed = np.random.SeedSequence(seed.entropy, spawn_key=seed.spawn_key, pool_size=seed.pool_size)
     elif not isinstance(seed, int | np.integer) or seed < 0:
         raise TaskError(f"seed needs a whole number >= 0 or a SeedSequence, got {seed!r}")
     return np.random.default_rng(seed)

@@ -65,9 +65,7 @@ def mipso_printed(
     def factors(k: float) -> tuple[float, float, float]:
         return printed_inertia(k, w_max, w_min), *learning_factors(k)
 
-    yield from _evolve(
-        task, tent_population(task, population, lam), factors, (pm1, pm2), printed=True
-    )
+    yield from _evolve(task, tent_population(task, population, lam), factors, (pm1, pm2), printed=True)
 
 
 def _evolve(

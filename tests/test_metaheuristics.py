@@ -473,9 +473,7 @@ def test_an_unknown_parameter_is_refused() -> None:
 # ------------------------------------------------- moves, against oracles written as loops (n, dim)
 
 
-def recorded(
-    search: Callable[..., Moves], *, budget: int, seed: int, **parameters: Any
-) -> Recorder:
+def recorded(search: Callable[..., Moves], *, budget: int, seed: int, **parameters: Any) -> Recorder:
     """Run on `holed` and return what was evaluated."""
     f = Recorder(holed)
     result = minimise(search, f, LO, HI, budget=budget, seed=seed, **parameters)
@@ -612,9 +610,7 @@ def loop_probability(f: list[float], pm1: float, pm2: float) -> list[float]:
     return p
 
 
-@pytest.mark.parametrize(
-    "name", ["mipso", "mipso-pso1", "mipso-pso2", "mipso-pso3", "mipso-printed"]
-)
+@pytest.mark.parametrize("name", ["mipso", "mipso-pso1", "mipso-pso2", "mipso-pso3", "mipso-printed"])
 def test_mipso_moves_as_the_loops_say(name: str) -> None:
     n, budget, pm1, pm2 = 9, 300, 0.4, 0.6
     rng = np.random.default_rng(16)
@@ -821,15 +817,11 @@ def drift(name: str, shift: float) -> float:
     at_home = Recorder(bowl)
     away = Recorder(lambda x: bowl(x - shift))
     for f, by in ((at_home, 0.0), (away, shift)):
-        minimise(
-            algorithm.function, f, LO + by, HI + by, budget=500, seed=2, **algorithm.parameters
-        )
+        minimise(algorithm.function, f, LO + by, HI + by, budget=500, seed=2, **algorithm.parameters)
     return float(np.abs((away.points - shift - at_home.points) / (HI - LO)).max())
 
 
-@pytest.mark.parametrize(
-    "name", ["random", "pso", "pso-linear", "pso-1995", "mipso", "mipso-printed"]
-)
+@pytest.mark.parametrize("name", ["random", "pso", "pso-linear", "pso-1995", "mipso", "mipso-printed"])
 def test_swarms_do_not_know_where_zero_is(name: str) -> None:
     assert drift(name, 64.0) < 1e-9
 

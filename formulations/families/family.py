@@ -42,7 +42,8 @@ class Family:
 
     def coefficients(self, problem: Problem, durations: Array) -> Array:
         """Coefficients on normalised time of a population: (n, n_segments) [s] ->
-        (n, n_segments, dof, 6) [rad], ascending."""
+        (n, n_segments, dof, 6) [rad], ascending.
+        """
         self.require(problem)
         durations = np.ascontiguousarray(durations, dtype=np.float64)
         if durations.ndim != 2 or durations.shape[1] != problem.n_segments:
@@ -59,7 +60,8 @@ class Family:
 
     def peaks(self, problem: Problem, durations: Array) -> Array:
         """Exact peaks of |velocity|, |acceleration|, |jerk| per joint: (n, n_segments) [s] ->
-        (n, dof, 3) [rad/s, rad/s^2, rad/s^3]."""
+        (n, dof, 3) [rad/s, rad/s^2, rad/s^3].
+        """
         out = np.empty((len(durations), problem.dof, 3))
         coefficients = self.coefficients(problem, durations)
         polynomial.peaks(coefficients, self.degrees_of(problem), durations, out)

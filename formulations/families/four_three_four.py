@@ -16,7 +16,7 @@ from formulations.families.polynomial import compiled
 
 @compiled
 def joint(x: Any, t: Any, c: Any, work: Any) -> None:
-    """Coefficients of one joint on normalised time, c (n, 6), from waypoints x (n+1,), durations t (n,).
+    """Coefficients of one joint on normalised time, c (n, 6), from x (n+1,) and durations t (n,).
 
     work: (2, n) scratch. Plain arithmetic alone: the same lines serve floats and CasADi symbols.
     """

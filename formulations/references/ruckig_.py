@@ -8,6 +8,7 @@ from __future__ import annotations
 
 import math
 from dataclasses import replace
+from itertools import pairwise
 
 import numpy as np
 import ruckig
@@ -59,7 +60,7 @@ def _through(problem: Problem, points: Array) -> Outcome:
         return Outcome.not_applicable("Ruckig needs an acceleration limit on every joint")
     durations: list[float] = []
     pieces: list[tuple[Array, Array]] = []
-    for start, end in zip(points[:-1], points[1:], strict=True):
+    for start, end in pairwise(points):
         if np.array_equal(start, end):
             durations.append(0.0)
             continue

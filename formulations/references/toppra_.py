@@ -112,9 +112,8 @@ class _ArcLength(toppra.interpolator.AbstractGeometricPath):  # type: ignore[mis
 
     def __call__(self, path_positions: Any, order: int = 0) -> Array:
         """Values at grid points, (m, dof), or (dof,) for one."""
-        rows = np.abs(np.atleast_1d(path_positions)[:, None] - self.grid).argmin(axis=1)
-        values = self._derivatives[order][rows]
-        return np.asarray(values if np.ndim(path_positions) else values[0])
+        middles = 0.5 * (self.grid[1:] + self.grid[:-1])
+        return np.asarray(self._derivatives[order][np.searchsorted(middles, path_positions)])
 
     @property
     def dof(self) -> int:
@@ -124,7 +123,7 @@ class _ArcLength(toppra.interpolator.AbstractGeometricPath):  # type: ignore[mis
     @property
     def path_interval(self) -> Array:
         """Start and end of the path."""
-        return self.grid[[0, -1]]
+        return np.asarray(self.grid[[0, -1]])
 
     @property
     def waypoints(self) -> None:
