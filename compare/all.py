@@ -71,7 +71,7 @@ def main() -> int:
     with workers(options.jobs) as pool:
         climb(pool, problems, store)
         swarm(pool, runs, problems, store)
-    page = render(store.folder, problems, settings, options.jobs)
+        page = render(pool, store.folder, problems, settings)
     print(f"report: {page} ({len(runs)} runs, {time.perf_counter() - started:.0f} s)", file=sys.stderr)
     return commands.DONE
 

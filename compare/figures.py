@@ -79,6 +79,8 @@ def draw_case(folder: str, case: str, problem: Problem) -> list[str]:
     for name, make in draw.items():
         figure = make()
         with mpl.rc_context(_STYLE):
+            figure.draw_without_rendering()
+            figure.set_layout_engine("none")  # laid out once for both files
             figure.savefig(target / f"{case}-{name}.svg", metadata={"Date": None})
             figure.savefig(target / f"{case}-{name}.png")
         plt.close(figure)

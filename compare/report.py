@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import base64
+from concurrent.futures import ProcessPoolExecutor
 from pathlib import Path
 from typing import Any
 
@@ -40,14 +41,15 @@ LIMITATIONS = [
 ]
 
 
-def render(folder: Path, problems: dict[str, Problem], settings: dict[str, Any], jobs: int) -> Path:
+def render(
+    pool: ProcessPoolExecutor, folder: Path, problems: dict[str, Problem], settings: dict[str, Any]
+) -> Path:
     """Figures, index.html, report.md from the store in ``folder``; returns the path of the page."""
     store = Store(folder)
     rows, ladders = store.rows(), store.ladders()
-    with workers(jobs) as pool:
-        calls = [(str(folder), case, problem) for case, problem in problems.items()]
-        for _ in each(pool, "figures", draw_case, calls):
-            pass
+    calls = [(str(folder), case, problem) for case, problem in problems.items()]
+    for _ in each(pool, "figures", draw_case, calls):
+        pass
     context = _context(rows, ladders, problems, settings)
     context["figures"] = {
         case: {name: (f"figures/{case}-{name}", caption) for name, caption in FIGURES.items()}
@@ -172,7 +174,8 @@ def main() -> int:
     jobs = commands.positive("--jobs", options.jobs)
     settings = store.settings()
     problems = {case: load(case) for case in settings["cases"]}
-    page = render(folder, problems, settings, jobs)
+    with workers(jobs) as pool:
+        page = render(pool, folder, problems, settings)
     print(f"report: {page}")
     return commands.DONE
 
