@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import os
-import sys
 import time
 
 from compare import commands, suite
@@ -72,7 +71,7 @@ def main() -> int:
         climb(pool, problems, store)
         swarm(pool, runs, problems, store)
         page = render(pool, store.folder, problems, settings)
-    print(f"report: {page} ({len(runs)} runs, {time.perf_counter() - started:.0f} s)", file=sys.stderr)
+    print(f"report: {page} ({len(runs)} runs, {time.perf_counter() - started:.0f} s)")
     return commands.DONE
 
 

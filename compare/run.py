@@ -6,6 +6,7 @@ import hashlib
 import multiprocessing
 import os
 import platform
+import signal
 import sys
 from collections.abc import Callable, Iterable, Iterator
 from concurrent.futures import FIRST_COMPLETED, Future, ProcessPoolExecutor, wait
@@ -27,6 +28,13 @@ T = TypeVar("T")
 def workers(jobs: int) -> Iterator[ProcessPoolExecutor]:
     """Worker processes, started afresh on every platform; an interrupt drops what waits."""
     pool = ProcessPoolExecutor(jobs, mp_context=multiprocessing.get_context("spawn"))
+    # workers inherit that they ignore an interrupt, which is this process's to handle
+    before = signal.signal(signal.SIGINT, signal.SIG_IGN)
+    try:
+        for _ in range(jobs):
+            pool.submit(os.getpid)
+    finally:
+        signal.signal(signal.SIGINT, before)
     try:
         yield pool
     except BaseException:

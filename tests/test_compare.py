@@ -325,6 +325,25 @@ def test_a_killed_run_leaves_readable_rows_and_resume_ends_like_an_unbroken_one(
     assert comparable(tmp_path) == comparable(report)
 
 
+@pytest.mark.slow
+@pytest.mark.skipif(sys.platform == "win32", reason="sends SIGINT")
+def test_an_interrupt_is_one_line_and_leaves_whole_rows(tmp_path: Path) -> None:
+    process = subprocess.Popen(
+        [sys.executable, "-m", "compare.all", "--swarms", "pso", "--seeds", "500", "--cases", "cobot",
+         "--out", str(tmp_path)],
+        cwd=ROOT, stderr=subprocess.PIPE, text=True, start_new_session=True,
+    )  # fmt: skip
+    deadline = time.monotonic() + 120.0
+    while time.monotonic() < deadline and len(Store(tmp_path).rows()) < 5:
+        time.sleep(0.05)
+    os.killpg(process.pid, signal.SIGINT)
+    _, errors = process.communicate(timeout=60)
+    assert process.returncode == 130
+    assert "Traceback" not in errors
+    assert errors.strip().splitlines()[-1] == "interrupted; what was finished is on disk"
+    assert len(Store(tmp_path).rows()) >= 5
+
+
 @pytest.mark.parametrize(
     ("options", "words"),
     [

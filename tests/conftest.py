@@ -1,0 +1,81 @@
+"""What the tests share: one stable hypothesis profile, and problems and durations to draw."""
+
+from __future__ import annotations
+
+import numpy as np
+from hypothesis import HealthCheck, settings
+from hypothesis import strategies as st
+from numpy.typing import NDArray
+
+from formulations import Limits, Problem
+
+Array = NDArray[np.float64]
+
+settings.register_profile(
+    "timebound",
+    derandomize=True,
+    database=None,
+    deadline=None,
+    max_examples=60,
+    suppress_health_check=[HealthCheck.too_slow],
+)
+settings.load_profile("timebound")
+
+
+def powers_of_ten(low: float, high: float) -> st.SearchStrategy[float]:
+    """Positive numbers, even in their logarithm."""
+    return st.floats(low, high).map(lambda exponent: float(10.0**exponent))
+
+
+@st.composite
+def displacements(draw: st.DrawFn, low: float = -6.0, high: float = 3.0) -> float:
+    """Zero one time in six, else 10^low to 10^high with either sign."""
+    if draw(st.integers(0, 5)) == 0:
+        return 0.0
+    return draw(st.sampled_from([-1.0, 1.0])) * draw(powers_of_ten(low, high))
+
+
+@st.composite
+def problems(
+    draw: st.DrawFn,
+    *,
+    segments: st.SearchStrategy[int] | int = 3,
+    max_dof: int = 3,
+    family: str | None = None,
+    reach: tuple[float, float] = (-6.0, 3.0),
+    limited: tuple[str, ...] = ("v", "va", "vj", "vaj"),
+    position: bool = False,
+) -> Problem:
+    """A legal problem: any mix of limits, joints that stand still and equal waypoints included.
+
+    reach: decimal exponents of the displacements. limited: which derivatives may have limits.
+    """
+    n = segments if isinstance(segments, int) else draw(segments)
+    dof = draw(st.integers(1, max_dof))
+    steps = [[draw(displacements(*reach)) for _ in range(dof)] for _ in range(n)]
+    start = [draw(st.floats(-3.0, 3.0)) for _ in range(dof)]
+    waypoints = np.cumsum([start, *steps], axis=0)
+    kind = draw(st.sampled_from(limited))
+    size = powers_of_ten(-1.0, 1.0)
+    limits = {
+        name: [draw(size) for _ in range(dof)]
+        for letter, name in (("v", "velocity"), ("a", "acceleration"), ("j", "jerk"))
+        if letter in kind
+    }
+    bounds: Array | tuple[float, float] = (-np.inf, np.inf)
+    if position:
+        width = np.maximum(np.ptp(waypoints, axis=0), 1e-3)
+        margin = np.array([[draw(st.floats(0.01, 1.0)) for _ in range(2)] for _ in range(dof)])
+        bounds = np.stack(
+            [
+                waypoints.min(axis=0) - margin[:, 0] * width,
+                waypoints.max(axis=0) + margin[:, 1] * width,
+            ],
+            axis=1,
+        )
+    return Problem.of(waypoints, Limits.of(**limits, position=bounds, dof=dof), family=family)
+
+
+def durations(n: int, low: float = -3.0, high: float = 3.0) -> st.SearchStrategy[Array]:
+    """Durations (n,) [s] from 10^low to 10^high."""
+    return st.lists(powers_of_ten(low, high), min_size=n, max_size=n).map(np.array)
