@@ -6,6 +6,9 @@ from __future__ import annotations
 class InputError(ValueError):
     """Something a person typed or wrote into a file cannot be used; commands exit with code 2."""
 
+    def __init__(self, message: str) -> None:
+        super().__init__(" ".join(message.split()))  # one line, whatever names and files contain
+
 
 class UnsupportedProblem(InputError):  # noqa: N818  # a refusal, not a failure
     """The problem is legal, but this family or reference has no meaning for it."""

@@ -19,7 +19,8 @@ POSITION_TOLERANCE = 1e-4  # rad a printed waypoint may lie outside its limit: r
 class Limits:
     """Symmetric limits on the derivatives and an interval for the position, per joint.
 
-    velocity, acceleration, jerk: (dof,) in rad/s, rad/s^2, rad/s^3; ``inf`` means unlimited.
+    velocity, acceleration, jerk: (dof,) in rad/s, rad/s^2, rad/s^3; the velocity is always limited,
+    ``inf`` means unlimited for the others.
     position: (dof, 2) in rad, lower and upper; infinite where unlimited.
     """
 
@@ -41,12 +42,16 @@ class Limits:
 
         Raises InputError for a wrong length, NaN, or a limit that is not positive.
         """
+        speeds = _per_joint("limits.velocity", velocity, dof)
+        if not np.isfinite(speeds).all():
+            joint = int(np.argmin(np.isfinite(speeds)))
+            raise InputError(f"limits.velocity: joint {joint + 1}: {speeds[joint]:g} is not finite")
         bounds = _rows(position, dof)
         for joint, (low, high) in enumerate(bounds):
             if not low < high:
                 raise InputError(f"limits.position: joint {joint + 1}: [{low:g}, {high:g}] is empty")
         return Limits(
-            velocity=_per_joint("limits.velocity", velocity, dof),
+            velocity=speeds,
             acceleration=_per_joint("limits.acceleration", acceleration, dof),
             jerk=_per_joint("limits.jerk", jerk, dof),
             position=bounds,
@@ -188,10 +193,8 @@ class Problem:
 def _numbers(key: str, values: Any) -> Array:
     try:
         return np.array(values, dtype=np.float64)
-    except (TypeError, ValueError):
-        raise InputError(
-            f"{key}: expected numbers in rows of equal length, got {values!r:.80}"
-        ) from None
+    except (TypeError, ValueError, OverflowError):
+        raise InputError(f"{key}: expected numbers in rows of equal length") from None
 
 
 def _per_joint(key: str, values: ArrayLike, dof: int) -> Array:

@@ -56,7 +56,7 @@ def parse(text: str, *, where: str = "problem") -> Problem:
     """A problem from TOML text; ``where`` opens every error line."""
     try:
         data = tomllib.loads(text)
-    except (tomllib.TOMLDecodeError, RecursionError) as error:
+    except (ValueError, RecursionError) as error:  # ValueError: also whole numbers beyond 4300 digits
         raise InputError(f"{where}: not valid TOML: {error}") from None
     try:
         return _problem(data)
@@ -71,17 +71,17 @@ def _problem(data: dict[str, Any]) -> Problem:
             raise InputError(f"{key}: missing")
     for key in ("name", "title", "source"):
         if not isinstance(data.get(key, ""), str):
-            raise InputError(f"{key}: expected text, got {data[key]!r}")
+            raise InputError(f"{key}: expected text, got {_shown(data[key])}")
     unit = _unit("unit", data.get("unit", "rad"))
     family = data.get("family")
     if family is not None and (not isinstance(family, str) or family not in FAMILIES):
-        raise InputError(f"family: {family!r:.40} is not one of {', '.join(FAMILIES)}")
+        raise InputError(f"family: {_shown(family)} is not one of {', '.join(FAMILIES)}")
 
     waypoints = _matrix("waypoints", data["waypoints"])
     dof = waypoints.shape[1]
     table = data["limits"]
     if not isinstance(table, dict):
-        raise InputError(f"limits: expected a table, got {table!r}")
+        raise InputError(f"limits: expected a table, got {_shown(table)}")
     _known_keys("limits", table, _LIMIT_KEYS)
     if "velocity" not in table:
         raise InputError("limits.velocity: missing")
@@ -92,7 +92,7 @@ def _problem(data: dict[str, Any]) -> Problem:
         if key in table:
             limits[key] = _limit(f"limits.{key}", table[key], dof) * scale
     if "position" in table:
-        limits["position"] = _matrix("limits.position", table["position"]) * scale
+        limits["position"] = _matrix("limits.position", table["position"], "joint", "value") * scale
     problem = Problem.of(
         waypoints * _UNITS[unit],
         Limits.of(**limits, dof=dof),
@@ -109,23 +109,31 @@ def _problem(data: dict[str, Any]) -> Problem:
 
 def _unit(key: str, value: Any) -> str:
     if not isinstance(value, str) or value not in _UNITS:
-        raise InputError(f"{key}: {value!r:.40} is not one of {', '.join(_UNITS)}")
+        raise InputError(f"{key}: {_shown(value)} is not one of {', '.join(_UNITS)}")
     return value
+
+
+def _shown(value: Any) -> str:
+    """A value as a person would recognise it, cut to one short line."""
+    try:
+        return f"{value!r:.50}"
+    except ValueError:  # a whole number beyond 4300 digits
+        return "a number of thousands of digits"
 
 
 def _known_keys(kind: str, table: dict[str, Any], known: tuple[str, ...]) -> None:
     for key in table:
         if key not in known:
-            raise InputError(f"{kind}: unknown key {key!r} (known: {', '.join(known)})")
+            raise InputError(f"{kind}: unknown key {_shown(key)} (known: {', '.join(known)})")
 
 
 def _number(key: str, value: Any) -> float:
     if isinstance(value, bool) or not isinstance(value, (int, float)):
-        raise InputError(f"{key}: expected a number, got {value!r:.60}")
+        raise InputError(f"{key}: expected a number, got {_shown(value)}")
     try:
         number = float(value)
     except OverflowError:
-        raise InputError(f"{key}: {value!r:.40} is too large") from None
+        raise InputError(f"{key}: {_shown(value)} is too large") from None
     if not math.isfinite(number):
         raise InputError(f"{key}: {number} is not finite (leave the key out if unlimited)")
     return number
@@ -139,18 +147,22 @@ def _limit(key: str, value: Any, dof: int) -> np.ndarray[Any, np.dtype[np.float6
     return np.array([_number(f"{key}: joint {j + 1}", entry) for j, entry in enumerate(value)])
 
 
-def _matrix(key: str, rows: Any) -> np.ndarray[Any, np.dtype[np.float64]]:
+def _matrix(
+    key: str, rows: Any, row_name: str = "row", column_name: str = "joint"
+) -> np.ndarray[Any, np.dtype[np.float64]]:
     if not isinstance(rows, list) or not rows or not all(isinstance(row, list) for row in rows):
-        raise InputError(f"{key}: expected a list of rows, got {rows!r:.60}")
+        raise InputError(f"{key}: expected a list of rows, got {_shown(rows)}")
     width = len(rows[0])
     if width == 0:
-        raise InputError(f"{key}: row 1 is empty")
+        raise InputError(f"{key}: {row_name} 1 is empty")
     for index, row in enumerate(rows):
         if len(row) != width:
-            raise InputError(f"{key}: row {index + 1} has {len(row)} values, row 1 has {width}")
+            raise InputError(
+                f"{key}: {row_name} {index + 1} has {len(row)} values, {row_name} 1 has {width}"
+            )
     return np.array(
         [
-            [_number(f"{key}: row {i + 1}, joint {j + 1}", x) for j, x in enumerate(row)]
+            [_number(f"{key}: {row_name} {i + 1}, {column_name} {j + 1}", x) for j, x in enumerate(row)]
             for i, row in enumerate(rows)
         ]
     )

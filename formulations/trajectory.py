@@ -55,6 +55,10 @@ class Trajectory:
             )
         if not (np.isfinite(self.durations).all() and (self.durations > 0.0).all()):
             raise InputError(f"trajectory: durations must be positive, got {self.durations}")
+        if not np.isfinite(self.coefficients).all():
+            raise InputError("trajectory: coefficients must be finite")
+        if self.passages is not None and not np.isfinite(self.passages).all():
+            raise InputError(f"trajectory: passage times must be finite, got {self.passages}")
 
     @property
     def dof(self) -> int:
@@ -86,7 +90,11 @@ class Trajectory:
 
     def sample(self, rate: float) -> tuple[Array, Array]:
         """Times (m,) [s] at ``rate`` [1/s], the end included, and position to jerk (4, m, dof)."""
-        times = np.append(np.arange(0.0, self.seconds, 1.0 / rate), self.seconds)
+        if not (np.isfinite(rate) and rate > 0.0):
+            raise InputError(f"trajectory: a sample rate must be positive, got {rate:g}")
+        # a step that ends at the end but for rounding is the end
+        steps = int(np.ceil(self.seconds * rate * (1.0 - 1e-12) - 1e-9))
+        times = np.append(np.arange(steps) / rate, self.seconds)
         return times, np.stack([self.at(times, order) for order in range(4)])
 
     def stretched(self, factor: float) -> Trajectory:
@@ -217,6 +225,12 @@ def check(problem: Problem, trajectory: Trajectory, *, through: bool = True) -> 
     times = trajectory.passage_times
     if len(times) != len(targets):
         faults.append(f"{len(times)} passage times for {len(targets)} waypoints")
+    elif not (
+        abs(times[0]) <= TOLERANCE * trajectory.seconds
+        and abs(times[-1] - trajectory.seconds) <= TOLERANCE * trajectory.seconds
+        and (np.diff(times) >= 0.0).all()
+    ):
+        faults.append("passage times do not run from the start to the end of the motion")
     else:
         miss = np.abs(trajectory.at(times) - targets)
         if miss.max() > tolerance:

@@ -48,8 +48,9 @@ class Family:
         durations = np.ascontiguousarray(durations, dtype=np.float64)
         if durations.ndim != 2 or durations.shape[1] != problem.n_segments:
             raise InputError(f"durations: expected (n, {problem.n_segments}), got {durations.shape}")
-        if not (durations > 0.0).all():  # also false for NaN
-            raise InputError(f"durations: must be positive, got {durations[~(durations > 0.0)][0]:g}")
+        good = (durations > 0.0) & (durations < np.inf)  # false for NaN
+        if not good.all():
+            raise InputError(f"durations: must be positive and finite, got {durations[~good][0]:g}")
         out = polynomial.empty_coefficients(len(durations), problem.n_segments, problem.dof)
         self.population(problem.waypoints, durations, out)
         return out
@@ -86,9 +87,9 @@ class Family:
 
         It depends on the shape alone; no stretch mends it.
         """
-        out = np.zeros(len(durations))
+        coefficients = self.coefficients(problem, durations)
+        out = np.zeros(len(coefficients))
         if problem.limits.has_position:
-            coefficients = self.coefficients(problem, durations)
             polynomial.position_excess(
                 coefficients, self.degrees_of(problem), problem.position_bounds, out
             )
