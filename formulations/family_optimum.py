@@ -23,6 +23,7 @@ from typing import Any
 
 import casadi
 import numpy as np
+from numpy.typing import NDArray
 
 from formulations.errors import InputError
 from formulations.families import FAMILIES, Family
@@ -31,9 +32,12 @@ from formulations.problem import Array, Problem
 from formulations.trajectory import Trajectory, Verdict, check
 
 _FIXED_EXCHANGES = 3  # rounds before the posed places follow their extremes
-_EXCHANGES = 20  # rounds of exchange before a start is given up as not converged
+_EXCHANGES = 40  # rounds of exchange before a start is given up as not converged
+_FREE, _VANISHED = 30.0, 1e-9  # log radius of the trust region: none, and when no step is left
+_POSITION_SLACK = 1e-10  # rad outside the position limits that IPOPT's own tolerance may leave
 _CONVERGED = 1e-10  # relative excess of the exact peaks over the posed ones
-_SHORTEST = 1e-8  # least duration of a segment, as a share of the displacement bound
+_SAMPLE, _NICHES, _APART = 8192, 4, 0.7  # shapes looked at, starts made of them, their log distance
+_SHORTEST = 1e-10  # least duration of a segment, as a share of the displacement bound
 
 _IPOPT: dict[str, Any] = {
     "ipopt.print_level": 0,
@@ -113,7 +117,7 @@ def family_optimum(
         return FamilyOptimum(problem, chosen.name, durations, (still,))
     program = _Program(problem, chosen)
     starts = []
-    guesses = _guesses(problem, random_starts, seed)
+    guesses = _guesses(problem, chosen, random_starts, seed)
     for index, guess in enumerate(guesses):
         starts.append(program.solve(guess))
         if progress is not None:
@@ -184,13 +188,48 @@ def shortest_segments(problem: Problem) -> Array:
     return np.asarray(np.maximum(each, _SHORTEST * max(float(each.sum()), 1e-300)))
 
 
-def _guesses(problem: Problem, random_starts: int, seed: int) -> list[Array]:
-    """Starts: displacement times, their geometric mean with the longest, and random ratios."""
-    scale = shortest_segments(problem)
-    scale = np.maximum(scale, 1e-2 * scale.max())
+def _guesses(problem: Problem, family: Family, random_starts: int, seed: int) -> list[Array]:
+    """Starts: displacement times, their geometric mean with the longest, random ratios, and the best
+    shapes among many: a narrow basin is seen by the compiled kernel for next to nothing.
+    """
+    shortest = shortest_segments(problem)
+    scale = np.maximum(shortest, 1e-2 * shortest.max())
     rng = np.random.default_rng(seed)
     ratios = rng.uniform(np.log(0.1), np.log(10.0), (random_starts, len(scale)))
-    return [scale, np.sqrt(scale * scale.max()), *(scale * np.exp(row) for row in ratios)]
+    plain = [scale, np.sqrt(scale * scale.max()), *(scale * np.exp(row) for row in ratios)]
+    return plain + _promising(problem, family, plain[0], rng)
+
+
+def _promising(problem: Problem, family: Family, first: Array, rng: np.random.Generator) -> list[Array]:
+    """The best shapes of a random sample, at most ``_NICHES``, each in a neighbourhood of its own."""
+    upper = float(first.sum() * family.stretch(problem, first[None])[0])
+    lower = np.maximum(shortest_segments(problem), 1e-7 * upper)
+    span = np.log(upper / np.minimum(lower, 0.5 * upper))
+    shapes = upper * np.exp(-span * rng.random((_SAMPLE, problem.n_segments)))
+    # half of the sample halves in size round by round about the best of what is known
+    for radius in (1.0, 0.3, 0.1):
+        best = shapes[_ranked(problem, family, shapes)[: 2 * _NICHES]]
+        if not len(best):
+            return []
+        near = best[rng.integers(len(best), size=_SAMPLE // 4)]
+        steps = np.exp(radius * rng.normal(size=near.shape))
+        shapes = np.concatenate([shapes, near * steps])
+    niches: list[Array] = []
+    for shape in shapes[_ranked(problem, family, shapes)]:
+        ratios = np.log(shape / shape.sum())
+        if all(np.abs(ratios - np.log(n / n.sum())).max() > _APART for n in niches):
+            niches.append(shape)
+            if len(niches) == _NICHES:
+                break
+    return niches
+
+
+def _ranked(problem: Problem, family: Family, shapes: Array) -> NDArray[np.intp]:
+    """Indices of the feasible shapes, best first."""
+    seconds = shapes.sum(axis=1) * family.stretch(problem, shapes)
+    seconds[family.position_excess(problem, shapes) > 0.0] = np.inf
+    order = np.argsort(seconds, kind="stable")
+    return np.asarray(order[np.isfinite(seconds[order])])
 
 
 class _Program:
@@ -233,7 +272,9 @@ class _Program:
                         if which >= 0:
                             slope, bend = _derivative(value, 1), _derivative(value, 2)
                             curvature = casadi.if_else(follow > 0, _at(bend, s), 1.0)
-                            place = s - follow * _at(slope, s) / curvature
+                            # an extreme that has left the piece is over at its end
+                            step = s - follow * _at(slope, s) / curvature
+                            place = casadi.fmin(casadi.fmax(step, 0.0), 1.0)
                         rows.append((_at(value, place) / t[k] ** order - origin) / scale)
                         places.append(casadi.vertcat(s, follow))
                         lower.append(low)
@@ -251,34 +292,55 @@ class _Program:
         self.floor = np.log(_SHORTEST * shortest.sum()) * np.ones(problem.n_segments)
 
     def solve(self, guess: Array) -> Start:
-        """Exchange from one start; the result is stretched to exact feasibility."""
-        durations = self._feasible(guess)
-        best, best_seconds = durations, np.inf
-        status = "not converged"
+        """Exchange from one start within a trust region; each iterate is stretched to feasibility.
+
+        An iterate that is not faster is taken back and the region shrunk: rows posed at one spline's
+        extremes say little about splines far away.
+        """
+        centre = self._feasible(guess)
+        shortest = self._seconds(centre)
+        radius, follow, status = _FREE, False, "not converged"
         for exchange in range(1, _EXCHANGES + 1):
-            answer = self.solver(
-                x0=np.log(durations),
-                p=self._extremes(durations, follow=exchange > _FIXED_EXCHANGES),
-                lbg=self.lower,
-                ubg=self.upper,
-                lbx=self.floor,
-                ubx=np.log(durations.sum() * 10.0),
-            )
-            solved = np.exp(np.asarray(answer["x"]).ravel())
-            outcome = str(self.solver.stats()["return_status"])
+            solved, outcome = self._step(centre, radius, follow)
             if not np.isfinite(solved).all():
-                return Start(best, best_seconds, outcome, exchange)
-            durations = self._feasible(solved)
-            seconds = float(durations.sum())
-            kept = float(self.family.position_excess(self.problem, durations[None])[0])
-            if kept <= 1e-10 and seconds < best_seconds:
-                best, best_seconds = durations, seconds
-            posed_was_exact = abs(seconds / float(solved.sum()) - 1.0) <= _CONVERGED
-            if posed_was_exact and kept <= 1e-10:
+                return Start(centre, shortest, f"not finite ({outcome})", exchange)
+            step = float(np.abs(np.log(solved / centre)).max())
+            found = self._feasible(solved)
+            seconds = self._seconds(found)
+            # the posed rows were all that matters, and the region did not hold the step back
+            exact = abs(found.sum() / solved.sum() - 1.0) <= _CONVERGED and step < 0.999 * radius
+            settled = exact and seconds <= shortest * (1.0 + _CONVERGED) and np.isfinite(seconds)
+            if seconds < shortest or not np.isfinite(shortest):
+                centre, shortest = found, seconds
+                radius = min(2.0 * radius, _FREE)
+            elif not settled:
+                radius, follow = 0.25 * min(radius, step), True
+            if settled:
                 status = "ok" if outcome == "Solve_Succeeded" else outcome
                 break
-            status = f"not converged ({outcome})"
-        return Start(best, best_seconds, status, exchange)
+            if radius < _VANISHED:
+                status = f"step vanished ({outcome})"
+                break
+            follow = follow or exchange >= _FIXED_EXCHANGES
+        return Start(centre, shortest, status, exchange)
+
+    def _step(self, centre: Array, radius: float, follow: bool) -> tuple[Array, str]:
+        """The program's solution within the trust region, and IPOPT's word for how it ended."""
+        y = np.log(centre)
+        answer = self.solver(
+            x0=y,
+            p=self._extremes(centre, follow),
+            lbg=self.lower,
+            ubg=self.upper,
+            lbx=np.maximum(y - radius, self.floor),
+            ubx=np.minimum(y + radius, np.log(centre.sum() * 10.0)),
+        )
+        return np.exp(np.asarray(answer["x"]).ravel()), str(self.solver.stats()["return_status"])
+
+    def _seconds(self, durations: Array) -> float:
+        """Total time [s], infinite where the position limits are left."""
+        excess = self.family.position_excess(self.problem, durations[None])[0]
+        return float(durations.sum()) if excess <= _POSITION_SLACK else np.inf
 
     def _feasible(self, durations: Array) -> Array:
         return np.asarray(durations * self.family.stretch(self.problem, durations[None])[0])

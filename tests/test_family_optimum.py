@@ -123,7 +123,7 @@ def test_there_and_back_with_velocity_alone_takes_32_ninths() -> None:
 
 
 @given(problem=problems(segments=2, reach=(-3.0, 2.0)))
-@settings(max_examples=12, phases=NO_SHRINKING)
+@settings(max_examples=8, phases=NO_SHRINKING)
 def test_two_segments_agree_with_a_search_along_the_one_ratio(problem: Problem) -> None:
     assume(problem.moving_joints)
     found = family_optimum(problem)
@@ -170,7 +170,7 @@ def test_every_joint_alone_agrees_with_differential_evolution(case: str) -> None
 
 @pytest.mark.slow
 @given(problem=problems(reach=(-3.0, 1.0)))
-@settings(max_examples=12, phases=NO_SHRINKING)
+@settings(max_examples=8, phases=NO_SHRINKING)
 def test_made_up_problems_agree_with_differential_evolution(problem: Problem) -> None:
     assume(problem.moving_joints)
     found = family_optimum(problem)
@@ -185,7 +185,7 @@ def test_made_up_problems_agree_with_differential_evolution(problem: Problem) ->
     last=st.floats(-1.5, 1.5),
     limited=st.sampled_from(["v", "va", "vaj"]),
 )
-@settings(max_examples=10, phases=NO_SHRINKING)
+@settings(max_examples=6, phases=NO_SHRINKING)
 def test_problems_with_two_basins_end_in_the_better_one(
     middle: float, last: float, limited: str
 ) -> None:
@@ -237,7 +237,7 @@ def test_a_start_that_is_called_ok_ends_where_no_neighbour_is_faster() -> None:
 
 
 @given(problem=problems(reach=(-3.0, 1.0), position=True), seed=st.integers(0, 2**32 - 1))
-@settings(max_examples=12, phases=NO_SHRINKING)
+@settings(max_examples=8, phases=NO_SHRINKING)
 def test_no_random_candidate_is_faster_than_the_optimum(problem: Problem, seed: int) -> None:
     assume(problem.moving_joints)
     rng = np.random.default_rng(seed)
@@ -254,7 +254,7 @@ def test_no_random_candidate_is_faster_than_the_optimum(problem: Problem, seed: 
 
 
 @given(problem=problems(segments=st.integers(2, 6), family="4-3-4", reach=(-2.0, 1.0)))
-@settings(max_examples=6, phases=NO_SHRINKING)
+@settings(max_examples=4, phases=NO_SHRINKING)
 def test_no_random_candidate_is_faster_in_longer_splines(problem: Problem) -> None:
     assume(problem.moving_joints)
     found = family_optimum(problem)
@@ -315,7 +315,7 @@ def scaled(problem: Problem, *, waypoints: float = 1.0, time: float = 1.0) -> Pr
 
 
 @given(problem=MOVING, factor=powers_of_ten(-2.0, 2.0))
-@settings(max_examples=6, phases=NO_SHRINKING)
+@settings(max_examples=4, phases=NO_SHRINKING)
 def test_a_change_of_units_changes_nothing_but_units(problem: Problem, factor: float) -> None:
     seconds = family_optimum(problem).seconds
     assert family_optimum(scaled(problem, waypoints=factor)).seconds == pytest.approx(seconds, rel=1e-8)
@@ -325,7 +325,7 @@ def test_a_change_of_units_changes_nothing_but_units(problem: Problem, factor: f
 
 
 @given(problem=problems(reach=(-2.0, 1.0), limited=("v",)), factor=powers_of_ten(-1.0, 1.0))
-@settings(max_examples=6, phases=NO_SHRINKING)
+@settings(max_examples=4, phases=NO_SHRINKING)
 def test_with_velocity_alone_time_is_divided_by_the_factor_on_the_limits(
     problem: Problem, factor: float
 ) -> None:
@@ -336,8 +336,9 @@ def test_with_velocity_alone_time_is_divided_by_the_factor_on_the_limits(
     )
 
 
+@pytest.mark.slow
 @given(problem=MOVING, shift=st.floats(-2.0, 2.0))
-@settings(max_examples=5, phases=NO_SHRINKING)
+@settings(max_examples=3, phases=NO_SHRINKING)
 def test_neither_an_offset_nor_a_sign_nor_the_direction_of_time_matters(
     problem: Problem, shift: float
 ) -> None:
@@ -348,7 +349,7 @@ def test_neither_an_offset_nor_a_sign_nor_the_direction_of_time_matters(
 
 
 @given(problem=MOVING)
-@settings(max_examples=6, phases=NO_SHRINKING)
+@settings(max_examples=4, phases=NO_SHRINKING)
 def test_a_further_limit_or_joint_never_makes_it_faster(problem: Problem) -> None:
     whole = family_optimum(problem).seconds
     for alone in each_joint_alone(problem):
@@ -369,7 +370,9 @@ def test_the_same_seed_gives_the_same_answer_to_the_bit(case: str) -> None:
 def test_progress_rises_to_one() -> None:
     seen: list[float] = []
     family_optimum(load("cobot"), random_starts=2, progress=seen.append)
-    assert seen == [0.25, 0.5, 0.75, 1.0]
+    assert len(seen) >= 4
+    assert seen == sorted(seen)
+    assert seen[-1] == 1.0
 
 
 def test_another_family_can_be_asked_for() -> None:
@@ -453,7 +456,7 @@ def test_the_longest_segment_rule_never_beats_the_optimum(case: str) -> None:
 
 def test_the_rule_breaks_the_limits_of_sr4c() -> None:
     problem = load("sr4c")
-    alone = [found.durations for found in each_joint_alone(problem) if found is not None]
+    alone = [optimum("sr4c", joint).durations for joint in problem.moving_joints]
     rule = longest_segment(problem, alone)
     assert rule.stretch > 1.1
     claimed = FAMILIES["3-5-3"].trajectory(problem, rule.claimed)
@@ -461,7 +464,7 @@ def test_the_rule_breaks_the_limits_of_sr4c() -> None:
 
 
 @given(problem=MOVING)
-@settings(max_examples=6, phases=NO_SHRINKING)
+@settings(max_examples=4, phases=NO_SHRINKING)
 def test_the_rule_never_beats_the_optimum_of_made_up_problems(problem: Problem) -> None:
     alone = [found.durations for found in each_joint_alone(problem) if found is not None]
     rule = longest_segment(problem, alone)

@@ -162,7 +162,10 @@ MISTAKES = {
         ["limits.velocity", "joint 1", "0"],
     ),
     "position for too few joints": (swapped(", [-2.0, 2.0]", ""), ["limits.position", "2 joints"]),
-    "position without an upper end": (swapped(", [-2.0, 2.0]", ", [1]"), ["limits.position", "joint 2"]),
+    "position without an upper end": (
+        swapped(", [-2.0, 2.0]", ", [1]"),
+        ["limits.position", "joint 2"],
+    ),
     "position with three ends": (
         swapped("[[-1.0, 3.0], [-2.0, 2.0]]", "[[-1, 1, 2], [-1, 1, 2]]"),
         ["limits.position", "low, high"],

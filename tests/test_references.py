@@ -272,7 +272,6 @@ def test_with_velocity_alone_the_time_is_the_integral_of_the_slowest_joint(case:
     assert seconds_of(toppra_on(problem, path)) == pytest.approx(exact, rel=GRID)
 
 
-@pytest.mark.slow
 @pytest.mark.parametrize("case", CASES)
 def test_toppra_on_shipped_cases_is_ok_and_no_slower_than_the_family(case: str) -> None:
     problem = load(case)
@@ -330,7 +329,9 @@ def visible(outcome: Outcome) -> bool:
     )
 
 
-@pytest.mark.parametrize("points", [[[0], [1], [0]], [[0, 0], [1, 2], [0, 0]], [[1], [0], [1], [0]]])
+@pytest.mark.parametrize(
+    "points", [[[0], [1], [0]], [[0, 0], [1, 2], [0, 0]], [[1], [0], [1], [0]], [[0], [1], [0.5], [2]]]
+)
 def test_a_cubic_that_reverses_through_standstill_is_a_visible_failure_or_right(
     points: list[list[float]],
 ) -> None:
@@ -365,10 +366,9 @@ def test_a_one_joint_path_that_turns_must_stop_there_or_fail_visibly(points: lis
     least = sum(trapezoid(abs(d), 1.0, 1.0) for d in np.diff(ends))
     with warnings.catch_warnings():
         warnings.simplefilter("error")
-        outcomes = [toppra_on(problem, path)]
-    for outcome in outcomes:
-        if not visible(outcome):
-            assert seconds_of(outcome) >= least * (1.0 - 2e-3)
+        outcome = toppra_on(problem, path)
+    if not visible(outcome):
+        assert seconds_of(outcome) >= least * (1.0 - 2e-3)
 
 
 def test_a_path_that_stands_still_for_a_while_is_a_visible_failure() -> None:

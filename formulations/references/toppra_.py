@@ -90,7 +90,13 @@ class _ArcLength(toppra.interpolator.AbstractGeometricPath):  # type: ignore[mis
         keep = np.append(lengths > 1e-12 * lengths.sum(), True)
         self.grid = np.concatenate([[0.0], np.cumsum(lengths)])[keep]
         self._derivatives = (path.at(t)[keep], u[keep] / self._scale, bend[keep] / self._scale)
-        self.still = not np.isfinite(self._derivatives[1]).all()
+        directions = u[keep]
+        self.fault = ""
+        if not np.isfinite(directions).all():
+            self.fault = "the path stands still inside"
+        elif (np.sum(directions[1:] * directions[:-1], axis=1) < 0.0).any():
+            # such a path has no direction there, and TOPP-RA no way to be told to stop
+            self.fault = "the path turns back inside"
 
     def _lengths(self, path: Trajectory, t: Array) -> Array:
         """Arc length between consecutive times, by Gauss-Legendre."""
@@ -132,8 +138,8 @@ class _ArcLength(toppra.interpolator.AbstractGeometricPath):  # type: ignore[mis
 
 def _time(problem: Problem, path: _ArcLength) -> float | str:
     """Duration on one grid [s], or what went wrong."""
-    if path.still:
-        return "the path stands still inside"
+    if path.fault:
+        return path.fault
     constraints = [toppra.constraint.JointVelocityConstraint(_symmetric(problem.limits.velocity))]
     if problem.limits.has_acceleration:
         constraints.append(
