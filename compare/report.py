@@ -28,8 +28,8 @@ FIGURES = {
 }
 
 LIMITATIONS = [
-    "The reference of every gap is the best of fourteen local solves of the exact NLP. It agrees with an "
-    "independent global search on every shipped 3-5-3 case, but it is an upper bound, not a proof; "
+    "The reference of every gap is the best of fourteen local solves of the exact NLP. It agrees with "
+    "an independent global search on every shipped 3-5-3 case, but it is an upper bound, not a proof; "
     "certified lower bounds of the families are not part of this release.",
     "The papers print no search box (but 003) and no way to treat velocities at its walls: the box, "
     "the clamp and every other reading are stated in compare/objective.py and metaheuristics.",
