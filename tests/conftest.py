@@ -1,13 +1,15 @@
-"""What the tests share: one stable hypothesis profile, and problems and durations to draw."""
+"""What the tests share: one stable hypothesis profile, problems to draw, the shipped ladders."""
 
 from __future__ import annotations
+
+import functools
 
 import numpy as np
 from hypothesis import HealthCheck, settings
 from hypothesis import strategies as st
 from numpy.typing import NDArray
 
-from formulations import Limits, Problem
+from formulations import Ladder, Limits, Problem, ladder, load
 
 Array = NDArray[np.float64]
 
@@ -79,3 +81,9 @@ def problems(
 def durations(n: int, low: float = -3.0, high: float = 3.0) -> st.SearchStrategy[Array]:
     """Durations (n,) [s] from 10^low to 10^high."""
     return st.lists(powers_of_ten(low, high), min_size=n, max_size=n).map(np.array)
+
+
+@functools.cache
+def climbed(case: str) -> Ladder:
+    """The ladder of a shipped case, climbed once for all tests: it holds every optimum of the case."""
+    return ladder(load(case))

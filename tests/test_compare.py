@@ -329,7 +329,7 @@ def test_a_killed_run_leaves_readable_rows_and_resume_ends_like_an_unbroken_one(
 @pytest.mark.skipif(sys.platform == "win32", reason="sends SIGINT")
 def test_an_interrupt_is_one_line_and_leaves_whole_rows(tmp_path: Path) -> None:
     process = subprocess.Popen(
-        [sys.executable, "-m", "compare.all", "--swarms", "pso", "--seeds", "500", "--cases", "cobot",
+        [sys.executable, "-m", "compare.all", "--swarms", "pso", "--seeds", "5000", "--cases", "cobot",
          "--out", str(tmp_path)],
         cwd=ROOT, stderr=subprocess.PIPE, text=True, start_new_session=True,
     )  # fmt: skip

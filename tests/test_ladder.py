@@ -6,15 +6,27 @@ import functools
 import json
 import math
 import re
+import sys
 from typing import Any
 
 import numpy as np
 import pytest
-from conftest import problems
+from conftest import climbed, problems
 from hypothesis import Phase, given, settings
 from hypothesis import strategies as st
 
-from formulations import CASES, FAMILIES, Ladder, Limits, Problem, check, ladder, load, parse
+from formulations import (
+    CASES,
+    FAMILIES,
+    Ladder,
+    Limits,
+    Problem,
+    check,
+    family_optimum,
+    ladder,
+    load,
+    parse,
+)
 
 KINDS = {
     "displacement": "lower",
@@ -41,12 +53,6 @@ ORDER = [
     ("ruckig_end_to_end", "free_form_lower"),
 ]
 SLACK = 1e-9
-
-
-@functools.cache
-def climbed(case: str) -> Ladder:
-    """The ladder of a shipped case, climbed once."""
-    return ladder(load(case))
 
 
 def in_order(found: Ladder) -> None:
@@ -237,8 +243,10 @@ def test_a_problem_in_which_nothing_moves_has_a_ladder(rows: int) -> None:
         assert family < 1e-6
 
 
-def test_a_family_without_a_feasible_motion_is_a_failed_rung() -> None:
+def test_a_family_without_a_feasible_motion_is_a_failed_rung(monkeypatch: pytest.MonkeyPatch) -> None:
     """The cube reaches the limit with speed and has to overshoot; Ruckig stops there and does not."""
+    quick = functools.partial(family_optimum, random_starts=0)
+    monkeypatch.setattr(sys.modules["formulations.ladder"], "family_optimum", quick)
     limits = Limits.of(1.0, 1.0, position=[[0.0, 1.0]], dof=1)
     found = ladder(Problem.of([[0.0], [1.0], [0.0], [1.0]], limits))
     whole(found)
