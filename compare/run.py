@@ -17,6 +17,7 @@ import numpy as np
 from tqdm import tqdm
 
 from compare.grade import Graded, Run, grade
+from compare.statistics import bound_of
 from compare.store import Store, key_of
 from formulations import FAMILIES, Problem, ladder
 from formulations.ladder import versions
@@ -75,7 +76,7 @@ def swarm(
 ) -> None:
     """Every run that the store does not have yet; rows in the order of the runs when all are done."""
     ladders = store.ladders()
-    bounds = {case: ladders[case]["ladder"]["family"]["seconds"] for case in problems}
+    bounds = {case: bound_of(ladders[case]) for case in problems}
     facts = {
         case: {"problem": digest(problem), "versions": versions_text(), "machine": machine()}
         for case, problem in problems.items()
@@ -88,7 +89,7 @@ def swarm(
     }
     left = [run for run in runs if run.key not in finished]
     batches = [left[i : i + _BATCH] for i in range(0, len(left), _BATCH)]
-    calls = [([(run, problems[run.case], bounds[run.case]) for run in batch],) for batch in batches]
+    calls = [([(run, problems[run.case], *bounds[run.case]) for run in batch],) for batch in batches]
     for graded in each(pool, f"swarms (x{_BATCH} runs)", _grades, calls):
         for one in graded:
             store.add(one, facts[one.run.case])
@@ -106,7 +107,7 @@ def _ladder(case: str, problem: Problem) -> tuple[str, dict[str, Any]]:
     return case, found
 
 
-def _grades(batch: list[tuple[Run, Problem, float | None]]) -> list[Graded]:
+def _grades(batch: list[tuple[Run, Problem, float | None, str]]) -> list[Graded]:
     return [grade(*one) for one in batch]
 
 
