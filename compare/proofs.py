@@ -94,7 +94,7 @@ def prove(task: Task) -> Cost:
 
 
 def tasks(count: int, most_segments: int, each_size: int) -> list[Task]:
-    """``count`` random 3-5-3 problems of 1 to 7 joints; six joints with ever more segments and digits."""
+    """``count`` random 3-5-3 problems of 1 to 7 joints; six joints with more segments and digits."""
     many = [
         Task("random 3-5-3", 3, 1 + seed % 7, LIMITED[seed % 3], seed, 1e-5) for seed in range(count)
     ]
