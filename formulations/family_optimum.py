@@ -127,6 +127,11 @@ def family_optimum(
     return FamilyOptimum(problem, chosen.name, best.durations, tuple(starts))
 
 
+def polished(problem: Problem, guess: Array, *, family: str | None = None) -> Start:
+    """The local optimum from one start, durations (n_segments,) [s] of any shape."""
+    return _Exchange(problem, FAMILIES[family or problem.family]).solve(guess)
+
+
 def each_joint_alone(
     problem: Problem, *, random_starts: int = 8, seed: int = 0
 ) -> tuple[FamilyOptimum | None, ...]:
@@ -214,7 +219,8 @@ class _Exchange:
                 return Start(best, best_seconds, f"not finite ({outcome})", round_)
             same_pattern = self.family.pattern(solved) == self.family.pattern(durations)
             durations, seconds = following, float(following.sum())
-            kept = float(self.family.position_excess(self.problem, durations[None])[0]) <= 1e-10
+            excess = float(self.family.position_excess(self.problem, durations[None])[0])
+            kept = excess <= self.problem.position_slack
             if kept and seconds < best_seconds:
                 best, best_seconds = durations, seconds
             posed_was_exact = abs(seconds / float(solved.sum()) - 1.0) <= _CONVERGED
