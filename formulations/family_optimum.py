@@ -33,7 +33,6 @@ from formulations.trajectory import Trajectory, Verdict, check
 _FIXED_EXCHANGES = 3  # rounds before the posed places follow their extremes
 _EXCHANGES = 40  # rounds of exchange before a start is given up as not converged
 _FREE, _VANISHED = 30.0, 1e-9  # log radius of the trust region: none, and when no step is left
-_POSITION_SLACK = 1e-10  # rad outside the position limits that IPOPT's own tolerance may leave
 _CONVERGED = 1e-10  # relative excess of the exact peaks over the posed ones
 _SAMPLE, _NICHES, _APART = 8192, 4, 0.7  # shapes looked at, starts made of them, their log distance
 _SHORTEST = 1e-10  # least duration of a segment, as a share of the displacement bound
@@ -133,6 +132,11 @@ def family_optimum(
             f"limits; last status: {starts[-1].status}"
         )
     return FamilyOptimum(problem, chosen.name, best.durations, tuple(starts))
+
+
+def polished(problem: Problem, guess: Array, *, family: str | None = None) -> Start:
+    """The local optimum from one start, durations (n_segments,) [s] of any shape."""
+    return _Exchange(problem, FAMILIES[family or problem.family]).solve(guess)
 
 
 def each_joint_alone(
@@ -280,7 +284,7 @@ class _Exchange:
     def _seconds(self, durations: Array) -> float:
         """Total time [s], infinite where the position limits are left."""
         excess = self.family.position_excess(self.problem, durations[None])[0]
-        return float(durations.sum()) if excess <= _POSITION_SLACK else np.inf
+        return float(durations.sum()) if excess <= self.problem.position_slack else np.inf
 
     def _feasible(self, durations: Array) -> Array:
         return np.asarray(durations * self.family.stretch(self.problem, durations[None])[0])
