@@ -65,9 +65,13 @@ def each(
                 yield future.result()
 
 
-def climb(pool: ProcessPoolExecutor, problems: dict[str, Problem], store: Store) -> None:
-    """Every bound of every case, written to the store."""
-    for case, found in each(pool, "bounds", _ladder, list(problems.items())):
+def climb(
+    pool: ProcessPoolExecutor, problems: dict[str, Problem], store: Store, *, certify: bool = True
+) -> None:
+    """Every bound of every case, written to the store; the longest task first."""
+    longest_first = sorted(problems.items(), key=lambda item: -item[1].n_segments)
+    calls = [(case, problem, certify) for case, problem in longest_first]
+    for case, found in each(pool, "bounds", _ladder, calls):
         store.write_ladder(case, found)
 
 
@@ -99,8 +103,8 @@ def swarm(
 _BATCH = 5  # runs per call: a run takes milliseconds
 
 
-def _ladder(case: str, problem: Problem) -> tuple[str, dict[str, Any]]:
-    climbed = ladder(problem)
+def _ladder(case: str, problem: Problem, certify: bool) -> tuple[str, dict[str, Any]]:
+    climbed = ladder(problem, certify=certify)
     found = climbed.to_json()
     found["alone"] = [None if one is None else one.seconds for one in climbed.alone]
     found["title"], found["family"] = problem.title, problem.family

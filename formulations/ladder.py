@@ -97,15 +97,16 @@ def ladder(
     problem: Problem,
     *,
     seed: int = 0,
+    certify: bool = True,
     certificate: bool = False,
     progress: Callable[[str], None] | None = None,
 ) -> Ladder:
     """Climb every rung; a method that cannot be used or fails is a status with its reason.
 
-    certificate: keep the proof of ``family_lower`` in ``bound.certificate``.
+    certify: prove ``family_lower``. certificate: keep that proof in ``bound.certificate``.
     """
     climb = _Climb(problem, seed, certificate, progress or (lambda key: None))
-    return climb.run()
+    return climb.run(certify)
 
 
 class _Climb:
@@ -120,13 +121,14 @@ class _Climb:
         self.alone: tuple[FamilyOptimum | None, ...] = ()
         self.bound: FamilyBound | None = None
 
-    def run(self) -> Ladder:
+    def run(self, certify: bool) -> Ladder:
         for key in ("displacement", "ruckig_end_to_end", "ruckig_stop_and_go"):
             self._add(key, partial(REFERENCES[key], self.problem))
         self._add("free_form_lower", self._best_lower)
         self._add("free_form", lambda: Outcome.not_applicable(_NOT_BUILT))
         self._add("family", self._family)
-        self._add("family_lower", self._family_lower)
+        left_out = Outcome.not_applicable("not asked for")
+        self._add("family_lower", self._family_lower if certify else lambda: left_out)
         self._add("family_longest_segment", self._longest_segment)
         self._add("toppra_family_path", self._toppra_family_path)
         self._add("toppra_cubic", lambda: REFERENCES["toppra_cubic"](self.problem))

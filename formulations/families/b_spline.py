@@ -123,12 +123,15 @@ def eliminate(matrix: Any) -> None:
 def joint(x: Any, degree: int, functions: Any, matrix: Any, d: Any, c: Any) -> None:
     """Coefficients of one joint, c (spans, 6), from its waypoints x (n + 1,); d: (n + 5,) scratch."""
     n = len(x) - 1
+    # relative to the first waypoint: a joint that stands still does so to the bit, whatever the
+    # offset; the first three control points are then zero
+    way = x[n] - x[0]
     for k in range(3):  # rest at both ends
-        d[k], d[n + 4 - k] = x[0] + 0.0 * matrix[0, 0], x[n] + 0.0 * matrix[0, 0]
+        d[k], d[n + 4 - k] = 0.0, way
     for i in range(n - 1):
-        d[i + 3] = x[i + 1] + 0.0 * matrix[0, 0]
+        d[i + 3] = x[i + 1] - x[0]
         for k in range(3):
-            d[i + 3] = d[i + 3] - matrix[i, k] * x[0] - matrix[i, n + 4 - k] * x[n]
+            d[i + 3] = d[i + 3] - matrix[i, n + 4 - k] * way
         for k in range(max(i - 5, 0), i):
             d[i + 3] = d[i + 3] - matrix[i, k + 3] * d[k + 3]
     for i in range(n - 2, -1, -1):
@@ -141,6 +144,7 @@ def joint(x: Any, degree: int, functions: Any, matrix: Any, d: Any, c: Any) -> N
             for j in range(1, degree + 1):
                 total = total + functions[k, j, power] * d[k + j]
             c[k, power] = total
+        c[k, 0] = c[k, 0] + x[0]
 
 
 @compiled
