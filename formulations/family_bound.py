@@ -176,13 +176,14 @@ class _Pursuit:
     ) -> None:
         self.problem, self.begin, self.record, self.progress = problem, begin, record, progress
         self.family = FAMILIES[problem.family]
+        self.simple = displacement_bound(problem)
         self.boxes, self.restarts = 0, 0
         self.best: Proof | None = None
         self.upper, self.durations = np.inf, durations
         self._adopt(durations)
         if not np.isfinite(self.upper):
             raise InputError("optimum: its motion does not pass the check")
-        self._attempt(self.upper * 0.999).run(64)  # compiles what a search needs, off the clock
+        self._attempt(self.upper).run(64)  # compiles what a search needs, before the clock runs
         self.deadline = np.inf
 
     def run(self, gap: float, time_limit: float) -> str:
@@ -206,7 +207,8 @@ class _Pursuit:
         """Prove upper / (1 + gap), from better and better motions as the proof finds them."""
         while True:
             # a little finer than asked, so that rounding does not leave the gap a digit above it
-            proof = self._attempt(self.upper / (1.0 + gap * (1.0 - 1e-6)))
+            # and never for less than the displacements give
+            proof = self._attempt(max(self.upper / (1.0 + gap * (1.0 - 1e-6)), self.simple))
             self._run(proof)
             if proof.proved:
                 if self.best is None or proof.L > self.best.L:

@@ -205,7 +205,7 @@ def search(
                             others = down(others + share[m])
                     width = hi[k] - lo[k]
                     part = 0.5
-                    for _ in range(2 if single < 0 else 1):
+                    for _ in range(3 if single < 0 else 1):
                         if single >= 0:
                             edge = c[k] + (1.0 - 2.0 * side) * (where * half[k] + 1e-6 * width)
                         else:
