@@ -21,49 +21,57 @@ from formulations.problem import Array
 
 
 @compiled
-def knots(t: Any, degree: int, u: Any, h: Any) -> None:
-    """Parameters of the waypoints u (n + 1,) and lengths of the knot spans h (n + 5 - degree,).
+def apart(steps: Any, out: Any) -> None:
+    """Signed distance from point a to point b, out[a, b]; sums of steps, never differences of sums.
 
-    Inner knot i is the mean of the parameters i - 1 .. i + degree - 2, cut to 0 .. n (003 eq. 6).
+    Where a step is tiny beside the others, differences of sums would have no digits left.
     """
-    n = len(t)
-    u[0] = 0.0 * t[0]
-    for k in range(n):
-        u[k + 1] = u[k] + t[k]
-    inner = n + 4 - degree
-    before = u[0]
-    for i in range(inner):
-        total = u[min(max(i - 1, 0), n)]
-        for k in range(i, i + degree - 1):
-            total = total + u[min(max(k, 0), n)]
-        knot = total / degree
-        h[i] = knot - before
-        before = knot
-    h[inner] = u[n] - before
+    n = len(steps)
+    for a in range(n + 1):
+        out[a, a] = 0.0 * steps[0]
+        for b in range(a, n):
+            out[a, b + 1] = out[a, b] + steps[b]
+            out[b + 1, a] = -out[a, b + 1]
 
 
 @compiled
-def spans_of(u: Any, h: Any, spans: Any) -> None:
+def knots(gaps: Any, degree: int, reach: Any, h: Any) -> None:
+    """From waypoints to knots, reach[i, k] (n + 1, spans + 1), and lengths of the spans h (spans,).
+
+    gaps: (n + 1, n + 1), between the waypoints. Inner knot k is the mean of the parameters
+    k - 2 .. k + degree - 3, cut to 0 .. n (003 eq. 6); the outer ones are the ends.
+    """
+    n, n_spans = len(gaps) - 1, len(h)
+    for i in range(n + 1):
+        reach[i, 0], reach[i, n_spans] = gaps[i, 0], gaps[i, n]
+        for k in range(1, n_spans):
+            total = gaps[i, min(max(k - 2, 0), n)]
+            for m in range(k - 1, k + degree - 2):
+                total = total + gaps[i, min(max(m, 0), n)]
+            reach[i, k] = total / degree
+    for k in range(1, n_spans - 1):  # two means that share all but one term each
+        h[k] = gaps[max(k - 2, 0), min(k + degree - 2, n)] / degree
+    h[0], h[n_spans - 1] = reach[0, 1], -reach[n, n_spans - 1]
+
+
+@compiled
+def spans_of(reach: Any, spans: Any) -> None:
     """Knot span that each inner waypoint lies in, (n + 1,) integers."""
-    k, right = 0, h[0]
-    for i in range(1, len(u) - 1):
-        while u[i] >= right and k < len(h) - 1:
+    k = 0
+    for i in range(1, len(reach) - 1):
+        while reach[i, k + 1] <= 0.0 and k < reach.shape[1] - 2:
             k += 1
-            right += h[k]
         spans[i] = k
 
 
 @compiled
-def basis(h: Any, degree: int, start: Any, out: Any, work: Any) -> None:
+def basis(h: Any, between: Any, degree: int, out: Any, work: Any) -> None:
     """The degree + 1 basis functions that live on each span, as polynomials of s in [0, 1].
 
     out: (spans, degree + 1, 6). Cox - de Boor (003 eq. 2) with its factors written out in s.
-    start: knots (spans + 1,). work: (6,).
+    between: distances of the knots (spans + 1, spans + 1). work: (6,).
     """
     n_spans = len(h)
-    start[0] = 0.0 * h[0]
-    for k in range(n_spans):
-        start[k + 1] = start[k] + h[k]
     for k in range(n_spans):
         out[k, 0, 0] = 1.0 + 0.0 * h[0]
         for p in range(1, degree + 1):
@@ -72,16 +80,16 @@ def basis(h: Any, degree: int, start: Any, out: Any, work: Any) -> None:
                 for i in range(6):
                     work[i] = 0.0 * h[0]
                 if j > 0:  # rising factor of the function that starts at knot k - p + j
-                    low = start[max(k - p + j, 0)]
-                    width = start[min(k + j, n_spans)] - low
-                    a, b = (start[k] - low) / width, h[k] / width
+                    low = max(k - p + j, 0)
+                    width = between[low, min(k + j, n_spans)]
+                    a, b = between[low, k] / width, h[k] / width
                     for i in range(p):
                         work[i] = work[i] + a * out[k, j - 1, i]
                         work[i + 1] = work[i + 1] + b * out[k, j - 1, i]
                 if j < p:  # falling factor of the next one
-                    high = start[min(k + j + 1, n_spans)]
-                    width = high - start[max(k - p + j + 1, 0)]
-                    a, b = (high - start[k]) / width, -h[k] / width
+                    high = min(k + j + 1, n_spans)
+                    width = between[max(k - p + j + 1, 0), high]
+                    a, b = between[k, high] / width, -h[k] / width
                     for i in range(p):
                         work[i] = work[i] + a * out[k, j, i]
                         work[i + 1] = work[i + 1] + b * out[k, j, i]
@@ -91,20 +99,36 @@ def basis(h: Any, degree: int, start: Any, out: Any, work: Any) -> None:
 
 @compiled
 def collocation(
-    u: Any, h: Any, start: Any, spans: Any, degree: int, functions: Any, matrix: Any
+    reach: Any, between: Any, spans: Any, degree: int, matrix: Any, shares: Any, work: Any
 ) -> None:
-    """Values of all control points' functions at the inner waypoints: matrix (n - 1, n + 5)."""
-    n = len(u) - 1
+    """Values of all control points' functions at the inner waypoints: matrix (n - 1, n + 5).
+
+    Cox - de Boor on the distances themselves: near the end of a span, 1 - s has no digits left.
+    shares: (n - 1, 2), sums of all functions but the last three, and of the last three.
+    """
+    n, n_spans = len(reach) - 1, len(between) - 1
     for i in range(n - 1):
-        for k in range(n + 5):
-            matrix[i, k] = 0.0 * h[0]
         k = spans[i + 1]
-        s = (u[i + 1] - start[k]) / h[k]
+        work[0] = 1.0 + 0.0 * between[0, 0]
+        for p in range(1, degree + 1):
+            for j in range(p, -1, -1):
+                value = 0.0 * between[0, 0]
+                if j > 0:
+                    low = max(k - p + j, 0)
+                    width = between[low, min(k + j, n_spans)]
+                    value = value - reach[i + 1, low] / width * work[j - 1]
+                if j < p:
+                    high = min(k + j + 1, n_spans)
+                    width = between[max(k - p + j + 1, 0), high]
+                    value = value + reach[i + 1, high] / width * work[j]
+                work[j] = value
+        for j in range(n + 5):
+            matrix[i, j] = 0.0 * between[0, 0]
+        shares[i, 0], shares[i, 1] = 0.0 * between[0, 0], 0.0 * between[0, 0]
         for j in range(degree + 1):
-            value = functions[k, j, degree]
-            for power in range(degree - 1, -1, -1):
-                value = value * s + functions[k, j, power]
-            matrix[i, k + j] = value
+            matrix[i, k + j] = work[j]
+            last = 1 if k + j > n + 1 else 0
+            shares[i, last] = shares[i, last] + work[j]
 
 
 @compiled
@@ -120,7 +144,7 @@ def eliminate(matrix: Any) -> None:
 
 
 @compiled
-def joint(x: Any, degree: int, functions: Any, matrix: Any, d: Any, c: Any) -> None:
+def joint(x: Any, degree: int, functions: Any, matrix: Any, shares: Any, d: Any, c: Any) -> None:
     """Coefficients of one joint, c (spans, 6), from its waypoints x (n + 1,); d: (n + 5,) scratch."""
     n = len(x) - 1
     # relative to the first waypoint: a joint that stands still does so to the bit, whatever the
@@ -129,9 +153,8 @@ def joint(x: Any, degree: int, functions: Any, matrix: Any, d: Any, c: Any) -> N
     for k in range(3):  # rest at both ends
         d[k], d[n + 4 - k] = 0.0, way
     for i in range(n - 1):
-        d[i + 3] = x[i + 1] - x[0]
-        for k in range(3):
-            d[i + 3] = d[i + 3] - matrix[i, n + 4 - k] * way
+        # x[i + 1] - x[0] less the share of the last three, free of cancellation close to the end
+        d[i + 3] = shares[i, 0] * (x[i + 1] - x[0]) + shares[i, 1] * (x[i + 1] - x[n])
         for k in range(max(i - 5, 0), i):
             d[i + 3] = d[i + 3] - matrix[i, k + 3] * d[k + 3]
     for i in range(n - 2, -1, -1):
@@ -152,29 +175,34 @@ def population(waypoints: Any, durations: Any, degree: int, lengths: Any, out: A
     """Whole populations, one piece per knot span (see ``Family``)."""
     n = durations.shape[1]
     n_spans = n + 5 - degree
-    u, start, d = np.zeros(n + 1), np.zeros(n_spans + 1), np.zeros(n + 5)
+    gaps, between = np.zeros((n + 1, n + 1)), np.zeros((n_spans + 1, n_spans + 1))
+    reach, d = np.zeros((n + 1, n_spans + 1)), np.zeros(n + 5)
     spans = np.zeros(n + 1, dtype=np.int64)
     functions, work = np.zeros((n_spans, degree + 1, 6)), np.zeros(6)
-    matrix = np.zeros((max(n - 1, 1), n + 5))
+    matrix, shares = np.zeros((max(n - 1, 1), n + 5)), np.zeros((max(n - 1, 1), 2))
     for i in range(len(durations)):
         h = lengths[i]
-        knots(durations[i], degree, u, h)
-        spans_of(u, h, spans)
+        apart(durations[i], gaps)
+        knots(gaps, degree, reach, h)
+        spans_of(reach, spans)
+        apart(h, between)
         functions[:] = 0.0
-        basis(h, degree, start, functions, work)
+        basis(h, between, degree, functions, work)
         if n > 1:
-            collocation(u, h, start, spans, degree, functions, matrix)
+            collocation(reach, between, spans, degree, matrix, shares, work)
             eliminate(matrix)
         for j in range(waypoints.shape[1]):
-            joint(waypoints[:, j], degree, functions, matrix, d, out[i, :, j])
+            joint(waypoints[:, j], degree, functions, matrix, shares, d, out[i, :, j])
 
 
 def _spans(durations: Array, degree: int) -> NDArray[np.int64]:
     """Knot span of each waypoint for numeric durations, (n + 1,) integers."""
     n = len(durations)
-    u, h, spans = np.zeros(n + 1), np.zeros(n + 5 - degree), np.zeros(n + 1, dtype=np.int64)
-    knots(durations, degree, u, h)
-    spans_of(u, h, spans)
+    gaps, spans = np.zeros((n + 1, n + 1)), np.zeros(n + 1, dtype=np.int64)
+    reach, h = np.zeros((n + 1, n + 6 - degree)), np.zeros(n + 5 - degree)
+    apart(durations, gaps)
+    knots(gaps, degree, reach, h)
+    spans_of(reach, spans)
     return spans
 
 
@@ -182,17 +210,25 @@ def _symbols(waypoints: Array, t: list[Any], near: Array, degree: int) -> tuple[
     """Splines on symbols, for the pattern of knots that ``near`` has (see ``Family``)."""
     n = len(t)
     n_spans = n + 5 - degree
-    u, h, start = scratch(n + 1), scratch(n_spans), scratch(n_spans + 1)
-    functions, matrix = scratch(n_spans, degree + 1, WIDTH), scratch(max(n - 1, 1), n + 5)
-    knots.py_func(t, degree, u, h)
-    basis.py_func(h, degree, start, functions, scratch(WIDTH))
+    gaps, between = scratch(n + 1, n + 1), scratch(n_spans + 1, n_spans + 1)
+    reach, h, functions = (
+        scratch(n + 1, n_spans + 1),
+        scratch(n_spans),
+        scratch(n_spans, degree + 1, WIDTH),
+    )
+    matrix, shares = scratch(max(n - 1, 1), n + 5), scratch(max(n - 1, 1), 2)
+    apart.py_func(t, gaps)
+    knots.py_func(gaps, degree, reach, h)
+    apart.py_func(h, between)
+    basis.py_func(h, between, degree, functions, scratch(WIDTH))
     if n > 1:
-        collocation.py_func(u, h, start, _spans(near, degree), degree, functions, matrix)
+        spans = _spans(near, degree)
+        collocation.py_func(reach, between, spans, degree, matrix, shares, scratch(WIDTH))
         eliminate.py_func(matrix)
     joints = []
     for x in waypoints.T.tolist():
         c = scratch(n_spans, WIDTH)
-        joint.py_func(x, degree, functions, matrix, scratch(n + 5), c)
+        joint.py_func(x, degree, functions, matrix, shares, scratch(n + 5), c)
         joints.append([list(row) for row in c])
     return list(h), joints
 
