@@ -17,7 +17,7 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 from scipy.interpolate import BSpline
 
-from formulations import CASES, FAMILIES, InputError, Limits, Problem, UnsupportedProblem, load
+from formulations import CASES, FAMILIES, InputError, Limits, Problem, UnsupportedProblem, check, load
 
 NAMES = list(FAMILIES)
 B_SPLINES = {"b-spline-3": 3, "b-spline-5": 5}
@@ -405,6 +405,21 @@ def test_the_reversed_problem_has_the_mirrored_motion(family: str, data: st.Data
     assert FAMILIES[family].stretch(mirror, t[None, ::-1])[0] == pytest.approx(
         FAMILIES[family].stretch(problem, t[None])[0], rel=1e-9
     )
+
+
+@pytest.mark.parametrize("family", NAMES)
+@pytest.mark.parametrize("tiny", [1e-3, 1e-6, 1e-9])
+def test_a_vanishing_segment_is_as_exact_at_the_end_as_at_the_start(family: str, tiny: float) -> None:
+    """Equal waypoints at an end pull their segment to nothing: no digits may go with it."""
+    points = np.array([[0.0, 1.0], [1.0, 0.5], [1.5, 2.0], [1.5, 2.0]])
+    t = np.array([[2.0, 3.0, tiny]])
+    limits = Limits.of(1.0, 2.0, 5.0, dof=2)
+    there, back = (Problem.of(x, limits, family=family) for x in (points, points[::-1]))
+    chosen = FAMILIES[family]
+    np.testing.assert_allclose(
+        chosen.peaks(there, t), chosen.peaks(back, t[:, ::-1]), rtol=1e-6 if tiny < 1e-6 else 1e-9
+    )
+    assert check(there, chosen.trajectory(there, t[0] * chosen.stretch(there, t))).feasible
 
 
 @pytest.mark.parametrize("family", NAMES)

@@ -98,37 +98,32 @@ def basis(h: Any, between: Any, degree: int, out: Any, work: Any) -> None:
 
 
 @compiled
-def collocation(
-    reach: Any, between: Any, spans: Any, degree: int, matrix: Any, shares: Any, work: Any
-) -> None:
-    """Values of all control points' functions at the inner waypoints: matrix (n - 1, n + 5).
+def collocation(reach: Any, between: Any, spans: Any, degree: int, values: Any, matrix: Any) -> None:
+    """The basis functions at the inner waypoints: those that live on the span of each, values
+    (n - 1, degree + 1), and the same ones in the columns of all control points, matrix (n - 1, n + 5).
 
     Cox - de Boor on the distances themselves: near the end of a span, 1 - s has no digits left.
-    shares: (n - 1, 2), sums of all functions but the last three, and of the last three.
     """
     n, n_spans = len(reach) - 1, len(between) - 1
     for i in range(n - 1):
         k = spans[i + 1]
-        work[0] = 1.0 + 0.0 * between[0, 0]
+        values[i, 0] = 1.0 + 0.0 * between[0, 0]
         for p in range(1, degree + 1):
             for j in range(p, -1, -1):
                 value = 0.0 * between[0, 0]
                 if j > 0:
                     low = max(k - p + j, 0)
                     width = between[low, min(k + j, n_spans)]
-                    value = value - reach[i + 1, low] / width * work[j - 1]
+                    value = value - reach[i + 1, low] / width * values[i, j - 1]
                 if j < p:
                     high = min(k + j + 1, n_spans)
                     width = between[max(k - p + j + 1, 0), high]
-                    value = value + reach[i + 1, high] / width * work[j]
-                work[j] = value
+                    value = value + reach[i + 1, high] / width * values[i, j]
+                values[i, j] = value
         for j in range(n + 5):
             matrix[i, j] = 0.0 * between[0, 0]
-        shares[i, 0], shares[i, 1] = 0.0 * between[0, 0], 0.0 * between[0, 0]
         for j in range(degree + 1):
-            matrix[i, k + j] = work[j]
-            last = 1 if k + j > n + 1 else 0
-            shares[i, last] = shares[i, last] + work[j]
+            matrix[i, k + j] = values[i, j]
 
 
 @compiled
@@ -144,17 +139,21 @@ def eliminate(matrix: Any) -> None:
 
 
 @compiled
-def joint(x: Any, degree: int, functions: Any, matrix: Any, shares: Any, d: Any, c: Any) -> None:
-    """Coefficients of one joint, c (spans, 6), from its waypoints x (n + 1,); d: (n + 5,) scratch."""
+def joint(
+    x: Any, degree: int, functions: Any, spans: Any, values: Any, matrix: Any, d: Any, c: Any
+) -> None:
+    """Coefficients of one joint, c (spans, 6), from its waypoints x (n + 1,); d: (n + 5,) scratch.
+
+    Control point j is sought as its distance from waypoint j - 2, of those that there are: a joint
+    that stands still does so to the bit, and no digits go with an offset or a segment that vanishes.
+    """
     n = len(x) - 1
-    # relative to the first waypoint: a joint that stands still does so to the bit, whatever the
-    # offset; the first three control points are then zero
-    way = x[n] - x[0]
-    for k in range(3):  # rest at both ends
-        d[k], d[n + 4 - k] = 0.0, way
+    for j in range(n + 5):  # rest at both ends: the first three, and the last three, stay zero
+        d[j] = 0.0
     for i in range(n - 1):
-        # x[i + 1] - x[0] less the share of the last three, free of cancellation close to the end
-        d[i + 3] = shares[i, 0] * (x[i + 1] - x[0]) + shares[i, 1] * (x[i + 1] - x[n])
+        for j in range(degree + 1):
+            near = x[min(max(spans[i + 1] + j - 2, 0), n)]
+            d[i + 3] = d[i + 3] + values[i, j] * (x[i + 1] - near)
         for k in range(max(i - 5, 0), i):
             d[i + 3] = d[i + 3] - matrix[i, k + 3] * d[k + 3]
     for i in range(n - 2, -1, -1):
@@ -162,12 +161,14 @@ def joint(x: Any, degree: int, functions: Any, matrix: Any, shares: Any, d: Any,
             d[i + 3] = d[i + 3] - matrix[i, k + 3] * d[k + 3]
         d[i + 3] = d[i + 3] / matrix[i, i + 3]
     for k in range(len(c)):
+        origin = x[min(max(k - 2, 0), n)]
         for power in range(degree + 1):
             total = functions[k, 0, power] * d[k]
             for j in range(1, degree + 1):
-                total = total + functions[k, j, power] * d[k + j]
+                way = x[min(max(k + j - 2, 0), n)] - origin
+                total = total + functions[k, j, power] * (way + d[k + j])
             c[k, power] = total
-        c[k, 0] = c[k, 0] + x[0]
+        c[k, 0] = origin + c[k, 0]
 
 
 @compiled
@@ -179,7 +180,7 @@ def population(waypoints: Any, durations: Any, degree: int, lengths: Any, out: A
     reach, d = np.zeros((n + 1, n_spans + 1)), np.zeros(n + 5)
     spans = np.zeros(n + 1, dtype=np.int64)
     functions, work = np.zeros((n_spans, degree + 1, 6)), np.zeros(6)
-    matrix, shares = np.zeros((max(n - 1, 1), n + 5)), np.zeros((max(n - 1, 1), 2))
+    values, matrix = np.zeros((max(n - 1, 1), degree + 1)), np.zeros((max(n - 1, 1), n + 5))
     for i in range(len(durations)):
         h = lengths[i]
         apart(durations[i], gaps)
@@ -189,10 +190,10 @@ def population(waypoints: Any, durations: Any, degree: int, lengths: Any, out: A
         functions[:] = 0.0
         basis(h, between, degree, functions, work)
         if n > 1:
-            collocation(reach, between, spans, degree, matrix, shares, work)
+            collocation(reach, between, spans, degree, values, matrix)
             eliminate(matrix)
         for j in range(waypoints.shape[1]):
-            joint(waypoints[:, j], degree, functions, matrix, shares, d, out[i, :, j])
+            joint(waypoints[:, j], degree, functions, spans, values, matrix, d, out[i, :, j])
 
 
 def _spans(durations: Array, degree: int) -> NDArray[np.int64]:
@@ -216,19 +217,19 @@ def _symbols(waypoints: Array, t: list[Any], near: Array, degree: int) -> tuple[
         scratch(n_spans),
         scratch(n_spans, degree + 1, WIDTH),
     )
-    matrix, shares = scratch(max(n - 1, 1), n + 5), scratch(max(n - 1, 1), 2)
+    values, matrix = scratch(max(n - 1, 1), degree + 1), scratch(max(n - 1, 1), n + 5)
+    spans = _spans(near, degree)
     apart.py_func(t, gaps)
     knots.py_func(gaps, degree, reach, h)
     apart.py_func(h, between)
     basis.py_func(h, between, degree, functions, scratch(WIDTH))
     if n > 1:
-        spans = _spans(near, degree)
-        collocation.py_func(reach, between, spans, degree, matrix, shares, scratch(WIDTH))
+        collocation.py_func(reach, between, spans, degree, values, matrix)
         eliminate.py_func(matrix)
     joints = []
     for x in waypoints.T.tolist():
         c = scratch(n_spans, WIDTH)
-        joint.py_func(x, degree, functions, matrix, shares, scratch(n + 5), c)
+        joint.py_func(x, degree, functions, spans, values, matrix, scratch(n + 5), c)
         joints.append([list(row) for row in c])
     return list(h), joints
 
