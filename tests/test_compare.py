@@ -353,6 +353,8 @@ def test_an_interrupt_is_one_line_and_leaves_whole_rows(tmp_path: Path) -> None:
         [sys.executable, "-m", "compare.all", "--swarms", "pso", "--seeds", "5000", "--cases", "cobot",
          "--out", str(tmp_path)],
         cwd=ROOT, stderr=subprocess.PIPE, text=True, start_new_session=True,
+        # a shell that runs the tests in the background ignores interrupts, and so would the child
+        preexec_fn=lambda: signal.signal(signal.SIGINT, signal.SIG_DFL),
     )  # fmt: skip
     deadline = time.monotonic() + 120.0
     while time.monotonic() < deadline and len(Store(tmp_path).rows()) < 5:

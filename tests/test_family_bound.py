@@ -7,6 +7,7 @@ import json
 import subprocess
 import sys
 from collections.abc import Callable
+from dataclasses import replace
 from pathlib import Path
 from typing import Any
 
@@ -190,7 +191,8 @@ def test_a_family_without_a_prover_says_so_and_gives_the_displacement_bound(fami
 
 
 def test_a_joint_without_any_limit_is_not_applicable() -> None:
-    problem = Problem.of([[0.0], [1.0], [2.0], [3.0]], Limits.of(np.inf, dof=1))
+    unlimited = replace(Limits.of(1.0, dof=1), velocity=np.array([np.inf]))  # ``of`` refuses it
+    problem = Problem.of([[0.0], [1.0], [2.0], [3.0]], unlimited)
     assert "without a limit" in family_bound(problem).status
 
 
