@@ -23,7 +23,9 @@ def main() -> int:
         "python -m compare.all --cases sr4c,ur5 --swarms pso,mipso --seeds 30 --out report",
     )
     size = parser.add_mutually_exclusive_group()
-    size.add_argument("--quick", action="store_true", help="2 seeds, 420 evaluations: a first look")
+    size.add_argument(
+        "--quick", action="store_true", help="2 seeds, 420 evaluations, no proofs, no B-spline"
+    )
     size.add_argument("--full", action="store_true", help="30 seeds and the papers' own budgets")
     parser.add_argument("--out", default="report", metavar="DIR", help="folder of the report")
     parser.add_argument("--jobs", type=int, default=os.cpu_count() or 1, help="worker processes")
@@ -40,6 +42,8 @@ def main() -> int:
     started = time.perf_counter()
     name = "quick" if options.quick else "full" if options.full else "default"
     cases = commands.chosen("--cases", options.cases, CASES)
+    if options.quick and options.cases is None:
+        cases = suite.quick_cases()
     for key in ("jobs", "seeds", "budget"):
         if getattr(options, key) is not None:
             commands.positive(f"--{key}", getattr(options, key))
@@ -68,7 +72,7 @@ def main() -> int:
 
     warm_up(problems)
     with workers(options.jobs) as pool:
-        climb(pool, problems, store)
+        climb(pool, problems, store, certify=not options.quick)
         swarm(pool, runs, problems, store)
         page = render(pool, store.folder, problems, settings)
     print(f"report: {page} ({len(runs)} runs, {time.perf_counter() - started:.0f} s)")

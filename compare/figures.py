@@ -15,7 +15,7 @@ from matplotlib.figure import Figure
 from matplotlib.lines import Line2D
 
 from compare.grade import Trace, durations_of
-from compare.statistics import best_claim, best_row, convergence
+from compare.statistics import best_claim, best_row, bound_of, convergence
 from compare.store import Store, key_of
 from formulations import FAMILIES, Problem, Trajectory, check
 from formulations.problem import Array
@@ -91,7 +91,7 @@ def draw_case(folder: str, case: str, problem: Problem) -> list[str]:
 P = ParamSpec("P")
 
 
-def _styled(draw: Callable[P, Figure]) -> Callable[P, Figure]:
+def styled(draw: Callable[P, Figure]) -> Callable[P, Figure]:
     """Draw in the report's style wherever the function is called."""
 
     @wraps(draw)
@@ -102,13 +102,13 @@ def _styled(draw: Callable[P, Figure]) -> Callable[P, Figure]:
     return styled
 
 
-@_styled
+@styled
 def ladder_figure(problem: Problem, ladder: dict[str, Any], rows: list[dict[str, Any]]) -> Figure:
     """Every bound and the best swarm results on one time axis."""
     entries = [
         (RUNG_NAMES[key], rung["seconds"], *KIND_STYLE[rung["kind"]])
         for key, rung in ladder["ladder"].items()
-        if rung["seconds"] is not None and key != "free_form_lower"
+        if rung["seconds"] is not None and key not in ("free_form_lower", "family_lower")
     ]
     claim = best_claim(rows)
     if claim is not None:
@@ -130,13 +130,15 @@ def ladder_figure(problem: Problem, ladder: dict[str, Any], rows: list[dict[str,
             )
         )
     entries.sort(key=lambda entry: entry[1])
-    optimum = ladder["ladder"]["family"]["seconds"]
+    optimum, proof = bound_of(ladder)
     figure, axes = plt.subplots(figsize=(9.0, 0.8 + 0.3 * len(entries)))
     barrier = ladder["ladder"]["free_form_lower"]["seconds"] or 0.0
     axes.axvspan(0.0, barrier, color=BLUE, alpha=0.10, lw=0)
     axes.text(barrier / 2, -0.75, "no motion can be here", ha="center", color=BLUE, fontsize=8)
     if optimum is not None:
         axes.axvline(optimum, color=GREEN, lw=0.8, ls="--")
+        words = "nothing in the family" if proof == "certified" else "best known of the family"
+        axes.text(optimum, -0.75, f"{words} ", ha="right", color=GREEN, fontsize=8)
     for y, (name, seconds, colour, marker) in enumerate(entries):
         axes.plot([0.0, seconds], [y, y], color=colour, lw=1.0, alpha=0.35)
         axes.plot(seconds, y, marker, color=colour, ms=7)
@@ -153,7 +155,7 @@ def ladder_figure(problem: Problem, ladder: dict[str, Any], rows: list[dict[str,
     return figure
 
 
-@_styled
+@styled
 def gap_figure(problem: Problem, rows: list[dict[str, Any]]) -> Figure:
     """Gap of every seed of every swarm in every coding; hollow: the claimed motion breaks limits."""
     swarms = list(dict.fromkeys(row["swarm"] for row in rows))
@@ -195,7 +197,7 @@ def gap_figure(problem: Problem, rows: list[dict[str, Any]]) -> Figure:
     return figure
 
 
-@_styled
+@styled
 def convergence_figure(
     problem: Problem,
     ladder: dict[str, Any],
@@ -242,7 +244,7 @@ def convergence_figure(
 _QUANTITIES = (("position", ""), ("velocity", "/s"), ("acceleration", "/s²"), ("jerk", "/s³"))
 
 
-@_styled
+@styled
 def motion_figure(problem: Problem, ladder: dict[str, Any], rows: list[dict[str, Any]]) -> Figure:
     """Position to jerk of the best motion with the limits drawn in; and of the papers' coding, as
     claimed, red where it breaks them.

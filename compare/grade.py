@@ -49,10 +49,10 @@ class Graded:
     traces: list[Trace]
 
 
-def grade(run: Run, problem: Problem, bound: float | None) -> Graded:
+def grade(run: Run, problem: Problem, bound: float | None, proof: str = "local optimum") -> Graded:
     """Run a swarm and judge its best vector by the independent check.
 
-    bound: best known lower reference of the family [s], the denominator of the gap; None if none.
+    bound: what the gap is measured against [s], None if there is nothing; proof: what stands behind it.
     """
     if run.coding == "published":
         joints = problem.moving_joints
@@ -95,6 +95,7 @@ def grade(run: Run, problem: Problem, bound: float | None) -> Graded:
         "seconds_objective": sum(result.seconds_objective for result in results),
         **_judged(run.coding, problem, objectives, results),
         "bound": bound,
+        "proof": proof,
     }
     row["gap"] = _relative(row["seconds"], bound)
     row["claimed_gap"] = _relative(row["claimed"], bound)

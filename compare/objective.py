@@ -21,7 +21,6 @@ CODINGS: dict[str, str] = {
     "stretched": "durations shared by all joints, stretched exactly to feasibility",
 }
 
-_POSITION_SLACK = 1e-10  # rad of rounding that still counts as inside the position limits
 _SHORTEST, _LONGEST = 1e-3, 3.0  # the box, in units of the shortest feasible equal duration
 
 
@@ -59,7 +58,7 @@ class Objective:
             total[factor > 1.0] = np.inf
         if self.problem.limits.has_position:
             excess = family.position_excess(self.problem, durations)
-            total[excess > _POSITION_SLACK] = np.inf
+            total[excess > self.problem.position_slack] = np.inf
         return total
 
     def durations(self, x: Array) -> Array:

@@ -17,6 +17,7 @@ import numpy as np
 from tqdm import tqdm
 
 from compare.grade import Graded, Run, grade
+from compare.statistics import bound_of
 from compare.store import Store, key_of
 from formulations import FAMILIES, Problem, ladder
 from formulations.ladder import versions
@@ -64,9 +65,13 @@ def each(
                 yield future.result()
 
 
-def climb(pool: ProcessPoolExecutor, problems: dict[str, Problem], store: Store) -> None:
-    """Every bound of every case, written to the store."""
-    for case, found in each(pool, "bounds", _ladder, list(problems.items())):
+def climb(
+    pool: ProcessPoolExecutor, problems: dict[str, Problem], store: Store, *, certify: bool = True
+) -> None:
+    """Every bound of every case, written to the store; the longest task first."""
+    longest_first = sorted(problems.items(), key=lambda item: -item[1].n_segments)
+    calls = [(case, problem, certify) for case, problem in longest_first]
+    for case, found in each(pool, "bounds", _ladder, calls):
         store.write_ladder(case, found)
 
 
@@ -75,7 +80,7 @@ def swarm(
 ) -> None:
     """Every run that the store does not have yet; rows in the order of the runs when all are done."""
     ladders = store.ladders()
-    bounds = {case: ladders[case]["ladder"]["family"]["seconds"] for case in problems}
+    bounds = {case: bound_of(ladders[case]) for case in problems}
     facts = {
         case: {"problem": digest(problem), "versions": versions_text(), "machine": machine()}
         for case, problem in problems.items()
@@ -88,7 +93,7 @@ def swarm(
     }
     left = [run for run in runs if run.key not in finished]
     batches = [left[i : i + _BATCH] for i in range(0, len(left), _BATCH)]
-    calls = [([(run, problems[run.case], bounds[run.case]) for run in batch],) for batch in batches]
+    calls = [([(run, problems[run.case], *bounds[run.case]) for run in batch],) for batch in batches]
     for graded in each(pool, f"swarms (x{_BATCH} runs)", _grades, calls):
         for one in graded:
             store.add(one, facts[one.run.case])
@@ -98,15 +103,15 @@ def swarm(
 _BATCH = 5  # runs per call: a run takes milliseconds
 
 
-def _ladder(case: str, problem: Problem) -> tuple[str, dict[str, Any]]:
-    climbed = ladder(problem)
+def _ladder(case: str, problem: Problem, certify: bool) -> tuple[str, dict[str, Any]]:
+    climbed = ladder(problem, certify=certify)
     found = climbed.to_json()
     found["alone"] = [None if one is None else one.seconds for one in climbed.alone]
     found["title"], found["family"] = problem.title, problem.family
     return case, found
 
 
-def _grades(batch: list[tuple[Run, Problem, float | None]]) -> list[Graded]:
+def _grades(batch: list[tuple[Run, Problem, float | None, str]]) -> list[Graded]:
     return [grade(*one) for one in batch]
 
 

@@ -7,6 +7,7 @@ from pathlib import Path
 
 from compare import commands
 from formulations import Ladder, ladder, load
+from formulations.bounds.certificate import write_certificate
 from formulations.ladder import MEANINGS
 
 
@@ -19,6 +20,11 @@ def main() -> int:
     )
     parser.add_argument("file", metavar="FILE", help="a problem file (TOML) or a shipped case")
     parser.add_argument("--json", metavar="OUT", help="write the ladder as JSON too")
+    parser.add_argument(
+        "--certificate",
+        metavar="FILE",
+        help="write the proof of family_lower, for python -m compare.check_certificate",
+    )
     parser.add_argument("--seed", type=int, default=0, help="seed of the NLP's random starts")
     options = parser.parse_args()
 
@@ -29,7 +35,9 @@ def main() -> int:
         if live:
             print(f"\r\033[K{key} ...", end="", file=sys.stderr, flush=True)
 
-    answer = ladder(problem, seed=options.seed, progress=progress)
+    answer = ladder(
+        problem, seed=options.seed, certificate=bool(options.certificate), progress=progress
+    )
     if live:
         print("\r\033[K", end="", file=sys.stderr)
     print(f"{problem.name}: {problem.title}")
@@ -37,6 +45,20 @@ def main() -> int:
     print(as_text(answer))
     if options.json:
         commands.write_json(Path(options.json), answer.to_json())
+    if options.certificate:
+        return _write_certificate(options.certificate, answer)
+    return commands.DONE
+
+
+def _write_certificate(path: str, answer: Ladder) -> int:
+    """Write the proof of family_lower, or say why there is none."""
+    certificate = answer.bound.certificate if answer.bound else None
+    if certificate is None:
+        reason = answer.rungs["family_lower"].note or "nothing was proved beyond the displacements"
+        print(f"--certificate: none was written: {reason}", file=sys.stderr)
+        return commands.FAILED
+    write_certificate(path, certificate)
+    print(f"\n{path}: proof of {float.fromhex(certificate['seconds']):.9g} s")
     return commands.DONE
 
 

@@ -84,6 +84,21 @@ def _at(trace: Trace, grid: Array) -> Array:
     return np.where(index >= 0, best[np.maximum(index, 0)], np.inf)
 
 
+def bound_of(ladder: dict[str, Any]) -> tuple[float | None, str]:
+    """What gaps are measured against [s], and its proof: "certified", "local optimum" or "none"."""
+    rungs = ladder["ladder"]
+    lower, optimum = rungs["family_lower"], rungs["family"]
+    # a certified bound that is not tight says more of the proof than of a swarm
+    if lower["seconds"] and optimum["seconds"] and optimum["seconds"] <= lower["seconds"] * _TIGHT:
+        return lower["seconds"], "certified"
+    if optimum["seconds"] is not None:
+        return optimum["seconds"], "local optimum"
+    return None, "none"
+
+
+_TIGHT = 1.0 + 1e-3
+
+
 def best_row(rows: Iterable[dict[str, Any]], **which: Any) -> dict[str, Any] | None:
     """The shortest verified row among those whose columns equal ``which``; None if there is none."""
     fitting = [

@@ -32,6 +32,7 @@ COLUMNS: dict[str, type] = {
     "stretch": float,
     "seconds": float,
     "bound": float,
+    "proof": str,
     "gap": float,
     "claimed_gap": float,
     "budget": int,

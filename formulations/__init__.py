@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from formulations.errors import InputError, UnsupportedProblem
 from formulations.families import FAMILIES
+from formulations.family_bound import FamilyBound, family_bound
 from formulations.family_optimum import (
     FamilyOptimum,
     NoFeasibleMotion,
@@ -21,6 +22,7 @@ __all__ = [
     "CASES",
     "FAMILIES",
     "REFERENCES",
+    "FamilyBound",
     "FamilyOptimum",
     "InputError",
     "Ladder",
@@ -32,6 +34,7 @@ __all__ = [
     "Verdict",
     "check",
     "each_joint_alone",
+    "family_bound",
     "family_optimum",
     "ladder",
     "load",

@@ -27,14 +27,12 @@ from numpy.typing import NDArray
 
 from formulations.errors import InputError
 from formulations.families import FAMILIES, Family
-from formulations.families.polynomial import WIDTH
 from formulations.problem import Array, Problem
 from formulations.trajectory import Trajectory, Verdict, check
 
 _FIXED_EXCHANGES = 3  # rounds before the posed places follow their extremes
 _EXCHANGES = 40  # rounds of exchange before a start is given up as not converged
 _FREE, _VANISHED = 30.0, 1e-9  # log radius of the trust region: none, and when no step is left
-_POSITION_SLACK = 1e-10  # rad outside the position limits that IPOPT's own tolerance may leave
 _CONVERGED = 1e-10  # relative excess of the exact peaks over the posed ones
 _SAMPLE, _NICHES, _APART = 8192, 4, 0.7  # shapes looked at, starts made of them, their log distance
 _SHORTEST = 1e-10  # least duration of a segment, as a share of the displacement bound
@@ -49,6 +47,7 @@ _IPOPT: dict[str, Any] = {
     "ipopt.mu_strategy": "adaptive",
     "ipopt.max_iter": 300,
     "error_on_fail": False,
+    "show_eval_warnings": False,  # a step too far is IPOPT's to take back
 }
 
 
@@ -100,13 +99,14 @@ def family_optimum(
     problem: Problem,
     *,
     family: str | None = None,
-    random_starts: int = 8,
+    random_starts: int | None = None,
     seed: int = 0,
     progress: Callable[[float], None] | None = None,
 ) -> FamilyOptimum:
     """Shortest total time of a family's splines for durations shared by all joints.
 
-    family: the problem's own if left out. Raises UnsupportedProblem where the family has no spline,
+    family: the problem's own if left out. random_starts: beside the two plain and four promising ones;
+    8 if left out, none for B-splines. Raises UnsupportedProblem where the family has no spline,
     NoFeasibleMotion if no start ends feasible (position limits only; all others yield to a stretch).
     """
     chosen = FAMILIES[family or problem.family]
@@ -115,11 +115,14 @@ def family_optimum(
         durations = np.full(problem.n_segments, _SHORTEST)
         still = Start(durations, float(durations.sum()), "nothing moves", 0)
         return FamilyOptimum(problem, chosen.name, durations, (still,))
-    program = _Program(problem, chosen)
+    exchange = _Exchange(problem, chosen)
     starts = []
+    if random_starts is None:
+        # a program per pattern of knots is dear, and starts far away have patterns of their own
+        random_starts = 0 if chosen.pattern(np.ones(problem.n_segments)) else 8
     guesses = _guesses(problem, chosen, random_starts, seed)
     for index, guess in enumerate(guesses):
-        starts.append(program.solve(guess))
+        starts.append(exchange.solve(guess))
         if progress is not None:
             progress((index + 1) / len(guesses))
     best = min(starts, key=lambda start: start.seconds)
@@ -131,8 +134,13 @@ def family_optimum(
     return FamilyOptimum(problem, chosen.name, best.durations, tuple(starts))
 
 
+def polished(problem: Problem, guess: Array, *, family: str | None = None) -> Start:
+    """The local optimum from one start, durations (n_segments,) [s] of any shape."""
+    return _Exchange(problem, FAMILIES[family or problem.family]).solve(guess)
+
+
 def each_joint_alone(
-    problem: Problem, *, random_starts: int = 8, seed: int = 0
+    problem: Problem, *, random_starts: int | None = None, seed: int = 0
 ) -> tuple[FamilyOptimum | None, ...]:
     """The optimum of every joint by itself, as the papers plan; None for joints that do not move."""
     return tuple(
@@ -232,64 +240,12 @@ def _ranked(problem: Problem, family: Family, shapes: Array) -> NDArray[np.intp]
     return np.asarray(order[np.isfinite(seconds[order])])
 
 
-class _Program:
-    """The NLP of one problem, built once; the places where constraints are posed are parameters."""
+class _Exchange:
+    """Solve, pose again at the extremes of the solution, until they stay where they are."""
 
     def __init__(self, problem: Problem, family: Family) -> None:
         self.problem, self.family = problem, family
-        degrees = family.degrees(problem.n_segments)
-        joints = problem.moving_joints
-        limits = problem.limits.derivatives
-        y = casadi.SX.sym("y", problem.n_segments)
-        t = casadi.exp(y)
-        coefficients = {j: _symbolic(family, problem.waypoints[:, j], t) for j in joints}
-
-        # rows: value of derivative r of joint j on piece k at s, over its limit, within [-1, 1]
-        rows, places, lower, upper = [], [], [], []
-        self.posed: list[tuple[int, int, int, int]] = []  # joint, piece, order, extreme or -1, -2
-        for j in joints:
-            for k, degree in enumerate(degrees):
-                polynomial = coefficients[j][k][: degree + 1]
-                for order in range(4):
-                    if order == 0:
-                        low, high = problem.position_bounds[j]
-                        if not (np.isfinite(low) or np.isfinite(high)):
-                            continue
-                        scale = max(float(np.ptp(problem.waypoints[:, j])), 1e-12)
-                        origin = float(problem.waypoints[k, j])
-                        low, high = (low - origin) / scale, (high - origin) / scale
-                    else:
-                        if not np.isfinite(limits[order - 1, j]):
-                            continue
-                        scale, origin, low, high = float(limits[order - 1, j]), 0.0, -1.0, 1.0
-                    low, high = float(low), float(high)
-                    value = _derivative(polynomial, order)
-                    # the ends of a piece, where they are not waypoints, and the inner extremes
-                    ends = [] if order == 0 else [-1, -2]
-                    for which in [*ends, *range(len(value) - 2)]:
-                        s, follow = casadi.SX.sym("s"), casadi.SX.sym("follow")
-                        place = s
-                        if which >= 0:
-                            slope, bend = _derivative(value, 1), _derivative(value, 2)
-                            curvature = casadi.if_else(follow > 0, _at(bend, s), 1.0)
-                            # an extreme that has left the piece is over at its end
-                            step = s - follow * _at(slope, s) / curvature
-                            place = casadi.fmin(casadi.fmax(step, 0.0), 1.0)
-                        rows.append((_at(value, place) / t[k] ** order - origin) / scale)
-                        places.append(casadi.vertcat(s, follow))
-                        lower.append(low)
-                        upper.append(high)
-                        self.posed.append((j, k, order, which))
-        self.lower, self.upper = np.array(lower), np.array(upper)
-        nlp = {
-            "x": y,
-            "p": casadi.vertcat(*places),
-            "f": casadi.sum1(t) / float(shortest_segments(problem).sum()),
-            "g": casadi.vertcat(*rows),
-        }
-        self.solver = casadi.nlpsol("family", "ipopt", nlp, _IPOPT)
-        shortest = shortest_segments(problem)
-        self.floor = np.log(_SHORTEST * shortest.sum()) * np.ones(problem.n_segments)
+        self.programs: dict[tuple[int, ...], _Program] = {}
 
     def solve(self, guess: Array) -> Start:
         """Exchange from one start within a trust region; each iterate is stretched to feasibility.
@@ -301,7 +257,7 @@ class _Program:
         shortest = self._seconds(centre)
         radius, follow, status = _FREE, False, "not converged"
         for exchange in range(1, _EXCHANGES + 1):
-            solved, outcome = self._step(centre, radius, follow)
+            solved, outcome = self._program(centre).solve(centre, radius, follow)
             if not np.isfinite(solved).all():
                 return Start(centre, shortest, f"not finite ({outcome})", exchange)
             step = float(np.abs(np.log(solved / centre)).max())
@@ -309,6 +265,7 @@ class _Program:
             seconds = self._seconds(found)
             # the posed rows were all that matters, and the region did not hold the step back
             exact = abs(found.sum() / solved.sum() - 1.0) <= _CONVERGED and step < 0.999 * radius
+            exact = exact and self.family.pattern(solved) == self.family.pattern(centre)
             settled = exact and seconds <= shortest * (1.0 + _CONVERGED) and np.isfinite(seconds)
             if seconds < shortest or not np.isfinite(shortest):
                 centre, shortest = found, seconds
@@ -324,8 +281,109 @@ class _Program:
             follow = follow or exchange >= _FIXED_EXCHANGES
         return Start(centre, shortest, status, exchange)
 
-    def _step(self, centre: Array, radius: float, follow: bool) -> tuple[Array, str]:
-        """The program's solution within the trust region, and IPOPT's word for how it ended."""
+    def _seconds(self, durations: Array) -> float:
+        """Total time [s], infinite where the position limits are left."""
+        excess = self.family.position_excess(self.problem, durations[None])[0]
+        return float(durations.sum()) if excess <= self.problem.position_slack else np.inf
+
+    def _feasible(self, durations: Array) -> Array:
+        return np.asarray(durations * self.family.stretch(self.problem, durations[None])[0])
+
+    def _program(self, durations: Array) -> _Program:
+        pattern = self.family.pattern(durations)
+        if pattern not in self.programs:
+            self.programs[pattern] = _Program(self.problem, self.family, durations)
+        return self.programs[pattern]
+
+
+class _Program:
+    """The NLP of one problem; the places where constraints are posed are parameters.
+
+    near: durations with the pattern of knots that the program is built for.
+    """
+
+    def __init__(self, problem: Problem, family: Family, near: Array) -> None:
+        self.problem, self.family = problem, family
+        self.degrees = family.degrees(problem.n_segments)
+        y = casadi.SX.sym("y", problem.n_segments)
+        t = casadi.exp(y)
+        times = [t[k] for k in range(problem.n_segments)]
+        self.rows: list[casadi.SX] = []
+        self.places: list[casadi.SX] = []
+        self.lower: list[float] = []
+        self.upper: list[float] = []
+        self.posed: list[tuple[int, int, int, int]] = []  # joint, piece, order, extreme or -1, -2
+        moving = problem.moving_joints
+        lengths, splines = family.symbols(problem.waypoints[:, moving], times, near)
+        for j, pieces in zip(moving, splines, strict=True):
+            for k, (length, c) in enumerate(zip(lengths, pieces, strict=True)):
+                for order in range(4):
+                    self._pose(j, k, order, length, c[: self.degrees[k] + 1])
+        shortest = shortest_segments(problem)
+        nlp = {
+            "x": y,
+            "p": casadi.vertcat(*self.places),
+            "f": casadi.sum1(t) / float(shortest.sum()),
+            "g": casadi.vertcat(*self.rows),
+        }
+        self.solver = casadi.nlpsol("family", "ipopt", nlp, _IPOPT)
+        self.floor = float(np.log(_SHORTEST * shortest.sum()))
+
+    def _pose(self, j: int, k: int, order: int, length: casadi.SX, c: list[casadi.SX]) -> None:
+        """Rows for one derivative of one joint on one piece: its value over its limit, in [-1, 1]."""
+        problem = self.problem
+        last = len(self.degrees) - 1
+        if order == 0:
+            # at waypoints the position is what it is
+            inner = len(self.degrees) != problem.n_segments
+            ends = [end for end, there in ((-2, inner and k > 0), (-1, inner and k < last)) if there]
+            origin = float(problem.waypoints[0, j])
+            scale = float(np.ptp(problem.waypoints[:, j]))
+            low, high = ((problem.position_bounds[j] - origin) / scale).tolist()
+        else:
+            ends = [-1, -2]
+            origin, scale = 0.0, float(problem.limits.derivatives[order - 1, j])
+            low, high = -1.0, 1.0
+        if not (np.isfinite(scale) and (np.isfinite(low) or np.isfinite(high))):
+            return
+        if order == 0 and k in (0, last):
+            self._leave(j, k, c, low, high)
+        value = _derivative(c, order)
+        for which in [*ends, *range(len(value) - 2)]:
+            s, follow = casadi.SX.sym("s"), casadi.SX.sym("follow")
+            place = s
+            if which >= 0:
+                slope, bend = _derivative(value, 1), _derivative(value, 2)
+                curvature = casadi.if_else(follow > 0, _at(bend, s), 1.0)
+                # an extreme that has left the piece is over at its end
+                step = s - follow * _at(slope, s) / curvature
+                place = casadi.fmin(casadi.fmax(step, 0.0), 1.0)
+            self.rows.append((_at(value, place) / length**order - origin) / scale)
+            self.places.append(casadi.vertcat(s, follow))
+            self.lower.append(low)
+            self.upper.append(high)
+            self.posed.append((j, k, order, which))
+
+    def _leave(self, j: int, k: int, c: list[casadi.SX], low: float, high: float) -> None:
+        """A joint that rests on its limit leaves it, and comes to it, on the inner side.
+
+        Velocity and acceleration vanish there, so the jerk decides; no extreme marks the spot.
+        """
+        jerk = _derivative(c, 3)
+        at_start = k == 0
+        x = float(self.problem.waypoints[0 if at_start else -1, j])
+        bounds = self.problem.position_bounds[j]
+        for bound, inward in zip(bounds, (1.0, -1.0), strict=True):
+            if abs(x - bound) <= 1e-9 * (1.0 + abs(x)):
+                sign = inward if at_start else -inward
+                self.rows.append(sign * _at(jerk, casadi.SX(0.0 if at_start else 1.0)))
+                self.places.append(casadi.SX.sym("unused", 2))
+                self.lower.append(0.0)
+                self.upper.append(float("inf"))
+                self.posed.append((j, k, 3, -2 if at_start else -1))
+
+    def solve(self, centre: Array, radius: float, follow: bool) -> tuple[Array, str]:
+        """Durations of the local optimum within the trust region, and IPOPT's word for how it ended."""
         y = np.log(centre)
         answer = self.solver(
             x0=y,
@@ -337,18 +395,9 @@ class _Program:
         )
         return np.exp(np.asarray(answer["x"]).ravel()), str(self.solver.stats()["return_status"])
 
-    def _seconds(self, durations: Array) -> float:
-        """Total time [s], infinite where the position limits are left."""
-        excess = self.family.position_excess(self.problem, durations[None])[0]
-        return float(durations.sum()) if excess <= _POSITION_SLACK else np.inf
-
-    def _feasible(self, durations: Array) -> Array:
-        return np.asarray(durations * self.family.stretch(self.problem, durations[None])[0])
-
     def _extremes(self, durations: Array, follow: bool) -> Array:
         """Where the rows are posed: normalised time, and whether it follows its extreme."""
         spline = self.family.coefficients(self.problem, durations[None])[0]
-        degrees = self.family.degrees(self.problem.n_segments)
         found: dict[tuple[int, int, int], Array] = {}
         places = np.zeros((len(self.posed), 2))
         for row, (j, k, order, which) in enumerate(self.posed):
@@ -357,7 +406,7 @@ class _Program:
                 continue
             key = (j, k, order)
             if key not in found:
-                value = np.polynomial.Polynomial(spline[k, j, : degrees[k] + 1]).deriv(order)
+                value = np.polynomial.Polynomial(spline[k, j, : self.degrees[k] + 1]).deriv(order)
                 found[key] = _inner_extremes(value)
             places[row] = found[key][which]
         places[:, 1] *= follow
@@ -378,16 +427,6 @@ def _inner_extremes(value: np.polynomial.Polynomial) -> Array:
         # an inflection has no curvature to follow along
         places[: len(inner), 1] = np.abs(slope.deriv(1)(inner)) > 1e-6 * size
     return places
-
-
-def _symbolic(family: Family, x: Array, t: casadi.SX) -> list[list[casadi.SX]]:
-    """The family's own formula run on CasADi symbols: coefficients per piece on normalised time."""
-    n = t.numel()
-    c = np.array([[0.0] * WIDTH for _ in range(n)], dtype=object)
-    work = np.array([[0.0] * n for _ in range(2)], dtype=object)
-    times = [t[k] for k in range(n)]
-    family.joint.py_func(x.tolist(), times, c, work)  # type: ignore[attr-defined]  # numba
-    return [list(row) for row in c]
 
 
 def _at(polynomial: list[casadi.SX], s: casadi.SX) -> casadi.SX:

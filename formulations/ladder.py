@@ -12,6 +12,7 @@ from typing import Any, Literal
 
 from formulations.errors import UnsupportedProblem
 from formulations.families import FAMILIES
+from formulations.family_bound import FamilyBound, family_bound
 from formulations.family_optimum import (
     FamilyOptimum,
     NoFeasibleMotion,
@@ -40,6 +41,7 @@ MEANINGS: dict[str, tuple[Kind, str]] = {
 }
 
 _NOT_BUILT = "not part of this release"
+_GAP, _TIME_LIMIT = 1e-7, 20.0  # of the certified bound of the family; s
 
 
 @dataclass(frozen=True)
@@ -65,6 +67,7 @@ class Ladder:
     trajectories: dict[str, Trajectory] = field(repr=False)
     optimum: FamilyOptimum | None = field(repr=False)
     alone: tuple[FamilyOptimum | None, ...] = field(repr=False)
+    bound: FamilyBound | None = field(default=None, repr=False)
 
     def seconds(self, key: str) -> float | None:
         """The number of a rung [s], None where there is none."""
@@ -94,29 +97,38 @@ def ladder(
     problem: Problem,
     *,
     seed: int = 0,
+    certify: bool = True,
+    certificate: bool = False,
     progress: Callable[[str], None] | None = None,
 ) -> Ladder:
-    """Climb every rung; a method that cannot be used or fails is a status with its reason."""
-    climb = _Climb(problem, seed, progress or (lambda key: None))
-    return climb.run()
+    """Climb every rung; a method that cannot be used or fails is a status with its reason.
+
+    certify: prove ``family_lower``. certificate: keep that proof in ``bound.certificate``.
+    """
+    climb = _Climb(problem, seed, certificate, progress or (lambda key: None))
+    return climb.run(certify)
 
 
 class _Climb:
-    def __init__(self, problem: Problem, seed: int, progress: Callable[[str], None]) -> None:
-        self.problem, self.seed, self.progress = problem, seed, progress
+    def __init__(
+        self, problem: Problem, seed: int, certificate: bool, progress: Callable[[str], None]
+    ) -> None:
+        self.problem, self.seed, self.certificate, self.progress = problem, seed, certificate, progress
         self.rungs: dict[str, Rung] = {}
         self.durations: dict[str, Array] = {}
         self.trajectories: dict[str, Trajectory] = {}
         self.optimum: FamilyOptimum | None = None
         self.alone: tuple[FamilyOptimum | None, ...] = ()
+        self.bound: FamilyBound | None = None
 
-    def run(self) -> Ladder:
+    def run(self, certify: bool) -> Ladder:
         for key in ("displacement", "ruckig_end_to_end", "ruckig_stop_and_go"):
             self._add(key, partial(REFERENCES[key], self.problem))
         self._add("free_form_lower", self._best_lower)
         self._add("free_form", lambda: Outcome.not_applicable(_NOT_BUILT))
-        self._add("family_lower", lambda: Outcome.not_applicable(_NOT_BUILT))
         self._add("family", self._family)
+        left_out = Outcome.not_applicable("not asked for")
+        self._add("family_lower", self._family_lower if certify else lambda: left_out)
         self._add("family_longest_segment", self._longest_segment)
         self._add("toppra_family_path", self._toppra_family_path)
         self._add("toppra_cubic", lambda: REFERENCES["toppra_cubic"](self.problem))
@@ -128,6 +140,7 @@ class _Climb:
             self.trajectories,
             self.optimum,
             self.alone,
+            self.bound,
         )
 
     def _add(self, key: str, method: Callable[[], Outcome]) -> None:
@@ -174,6 +187,26 @@ class _Climb:
             trajectory=optimum.trajectory,
             note=f"{optimum.family}; {optimum.agreeing_starts} of {len(optimum.starts)} starts agree",
         )
+
+    def _family_lower(self) -> Outcome:
+        if self.optimum is None:
+            return Outcome.not_applicable("there is no family optimum to start from")
+        bound = family_bound(
+            self.problem,
+            gap=_GAP,
+            time_limit=_TIME_LIMIT,
+            optimum=self.optimum,
+            record=self.certificate,
+        )
+        self.bound = bound
+        if bound.status.startswith("not applicable"):
+            return Outcome.not_applicable(bound.status.removeprefix("not applicable: "))
+        note = f"{bound.boxes} boxes, gap {bound.gap:.2g}"
+        if bound.status != "proved":
+            note += f", {bound.status}"
+        if bound.upper < self.optimum.seconds * (1.0 - _GAP):
+            note += f"; the proof found a faster motion, {bound.upper:.9g} s"
+        return Outcome.ok(bound.seconds, note=note)
 
     def _longest_segment(self) -> Outcome:
         if self.optimum is None:

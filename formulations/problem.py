@@ -14,6 +14,10 @@ Array = NDArray[np.float64]
 
 POSITION_TOLERANCE = 1e-4  # rad a printed waypoint may lie outside its limit: rounding of tables
 
+# rad per (1 + largest |waypoint|) that a motion may leave the position limits by: rounding, of the
+# optimisers above all. One number for the check, the swarms' objective, the optimum and the bound.
+POSITION_SLACK = 1e-10
+
 
 @dataclass(frozen=True)
 class Limits:
@@ -166,6 +170,11 @@ class Problem:
         low = np.minimum(self.limits.position[:, 0], self.waypoints.min(axis=0))
         high = np.maximum(self.limits.position[:, 1], self.waypoints.max(axis=0))
         return np.stack([low, high], axis=1)
+
+    @property
+    def position_slack(self) -> float:
+        """How far a motion may leave ``position_bounds`` and still count as inside [rad]."""
+        return POSITION_SLACK * (1.0 + float(np.abs(self.waypoints).max()))
 
     def joint(self, index: int) -> Problem:
         """The same task for one joint alone, as the papers pose it."""

@@ -294,8 +294,7 @@ def _peaks(problem: Problem, trajectory: Trajectory) -> list[Peak]:
         extremes = trajectory.extremes(0)
         low, high = problem.position_bounds.T
         width = np.where(np.isfinite(high - low), high - low, 1.0)
-        # rounding of the waypoints themselves is not a violation
-        slack = 1e-13 * (1.0 + np.abs(problem.waypoints).max()) + TOLERANCE * width
+        slack = problem.position_slack
         below, above = low - slack - extremes.low, extremes.high - high - slack
         for excess, is_high in ((below, False), (above, True)):
             piece, joint = divmod(int(excess.argmax()), problem.dof)

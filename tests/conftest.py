@@ -5,13 +5,17 @@ from __future__ import annotations
 import functools
 
 import numpy as np
+import pytest
 from hypothesis import HealthCheck, settings
 from hypothesis import strategies as st
 from numpy.typing import NDArray
 
-from formulations import Ladder, Limits, Problem, ladder, load
+from formulations import CASES, Ladder, Limits, Problem, ladder, load
 
 Array = NDArray[np.float64]
+
+# the shipped cases where their optima are needed: that of z1 takes a while
+SOLVED = [pytest.param(case, marks=[pytest.mark.slow] * (case == "z1")) for case in CASES]
 
 settings.register_profile(
     "timebound",

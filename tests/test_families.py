@@ -1,29 +1,33 @@
 """Spline families: the papers' matrices, the laws that define the splines, exact peaks and stretch.
 
 Interpolation, C2 and rest at both ends are as many equations as a spline has coefficients and they
-have one solution: a family that keeps them for all durations is the papers' family.
+have one solution for 3-5-3 and 4-3-4: a family that keeps them for all durations is the papers'
+family. The quintic and the B-splines are pinned by dense solves of their own conditions.
 """
 
 from __future__ import annotations
 
 from typing import Any
 
+import casadi
 import numpy as np
 import pytest
 from conftest import Array, durations, powers_of_ten, problems
 from hypothesis import given, settings
 from hypothesis import strategies as st
+from scipy.interpolate import BSpline
 
-from formulations import CASES, FAMILIES, InputError, Limits, Problem, UnsupportedProblem, load
+from formulations import CASES, FAMILIES, InputError, Limits, Problem, UnsupportedProblem, check, load
 
 NAMES = list(FAMILIES)
+B_SPLINES = {"b-spline-3": 3, "b-spline-5": 5}
 DENSE = 20_001
 POWERS = np.arange(6)
 
 
 def some_problem(family: str, **options: Any) -> st.SearchStrategy[Problem]:
     """Problems the family has a spline for."""
-    segments: Any = 3 if family == "3-5-3" else st.integers(2, 6)
+    segments: Any = 3 if family == "3-5-3" else st.integers(2 if family == "4-3-4" else 1, 6)
     return problems(segments=segments, family=family, **options)
 
 
@@ -33,7 +37,15 @@ def candidates(
 ) -> tuple[Problem, Array]:
     """A problem and durations for it."""
     problem = draw(some_problem(family, **options))
-    return problem, draw(durations(problem.n_segments, low, high))
+    return problem, draw(durations(problem.n_segments, *milder(family, low, high)))
+
+
+def milder(family: str, low: float, high: float) -> tuple[float, float]:
+    """Decimal exponents to draw durations from, less far apart for B-splines.
+
+    Their interpolation conditions grow ill-conditioned with a power of the ratio of the durations.
+    """
+    return (max(low, -1.0), min(high, 1.0)) if family in B_SPLINES else (low, high)
 
 
 def derivative(c: Array, order: int) -> Array:
@@ -53,9 +65,22 @@ def rounding(c: Array) -> Array:
     return np.asarray(np.abs(c).sum(axis=-1))
 
 
-def dense(c: Array, t: Array, order: int) -> Array:
-    """Samples (n_segments, dof, DENSE) of a derivative in time of normalised pieces c."""
-    return at(derivative(c, order), np.linspace(0.0, 1.0, DENSE)) / t[:, None, None] ** order
+def pieces(problem: Problem, t: Array) -> tuple[Array, Array]:
+    """Lengths (n_pieces,) [s] and normalised coefficients (n_pieces, dof, 6) for durations t (n,)."""
+    lengths, c = FAMILIES[problem.family].pieces(problem, t[None])
+    return lengths[0], c[0]
+
+
+def dense(c: Array, lengths: Array, order: int) -> Array:
+    """Samples (n_pieces, dof, DENSE) of a derivative in time of normalised pieces c."""
+    return at(derivative(c, order), np.linspace(0.0, 1.0, DENSE)) / lengths[:, None, None] ** order
+
+
+def degrees_of(family: str, n: int) -> tuple[int, ...]:
+    """Degrees of the pieces as the papers state them; a B-spline has n + 4 - degree inner knots."""
+    if family in B_SPLINES:
+        return (B_SPLINES[family],) * (n + 5 - B_SPLINES[family])
+    return {"3-5-3": (3, 5, 3), "4-3-4": (4, *[3] * (n - 2), 4), "quintic": (5,) * n}[family]
 
 
 # --- the papers' own linear systems ---------------------------------------------------------------
@@ -181,6 +206,102 @@ def test_4_3_4_solves_the_printed_matrix_of_the_bagging_robot() -> None:
         np.testing.assert_allclose(motion.coefficients[5, j, 4::-1], solution[21:], atol=1e-9)
 
 
+# --- the quintic and the B-splines against dense solves -------------------------------------------
+
+
+@given(candidate=candidates("quintic", -0.7, 0.7, reach=(-2.0, 1.0)))
+def test_quintics_solve_six_conditions_each_with_the_mean_rule(
+    candidate: tuple[Problem, Array],
+) -> None:
+    problem, t = candidate
+    motion = FAMILIES["quintic"].trajectory(problem, t)
+    for j in range(problem.dof):
+        x = problem.waypoints[:, j]
+        mean = np.diff(x) / t  # mean velocity of each segment
+        inner = np.where(np.sign(mean[1:]) == np.sign(mean[:-1]), 0.5 * (mean[1:] + mean[:-1]), 0.0)
+        v = np.concatenate([[0.0], inner, [0.0]])
+        for k, time in enumerate(t):
+            rows = []
+            for tau in (0.0, time):
+                for order in range(3):
+                    factors = derivative(np.eye(6), order)  # of each power
+                    rows.append(at(factors, tau)[:, 0])
+            expected = np.linalg.solve(rows, [x[k], v[k], 0.0, x[k + 1], v[k + 1], 0.0])
+            scale = time**POWERS
+            np.testing.assert_allclose(
+                motion.coefficients[k, j] * scale, expected * scale, rtol=1e-9, atol=1e-9
+            )
+
+
+@pytest.mark.parametrize("family", B_SPLINES)
+@given(data=st.data())
+def test_b_splines_solve_the_full_system_of_scipys_basis(family: str, data: st.DataObject) -> None:
+    """003 eq. 1-12: knots by running means, interpolation, and rest at both ends as equations."""
+    problem, t = data.draw(candidates(family, -1.0, 1.0, reach=(-2.0, 1.0)))
+    degree, n = B_SPLINES[family], problem.n_segments
+    total = t.sum()
+    u = np.concatenate([[0.0], np.cumsum(t)]) / total
+    u[-1] = 1.0
+    windows = np.arange(n + 4 - degree)[:, None] + np.arange(-1, degree - 1)
+    inner = u[np.clip(windows, 0, n)].mean(axis=1)
+    vector = np.concatenate([np.zeros(degree + 1), inner, np.ones(degree + 1)])
+    basis = BSpline(vector, np.eye(n + 5), degree)
+    rows = [*basis(u), *(basis.derivative(order)(end) for end in (0.0, 1.0) for order in (1, 2))]
+    sizes = np.abs(rows).max(axis=1, keepdims=True)
+    matrix = rows / sizes
+    right = np.zeros((n + 5, problem.dof))
+    right[: n + 1] = problem.waypoints
+    right /= sizes
+    expected = BSpline(vector, np.linalg.solve(matrix, right), degree)
+    # either solve is off by its condition; a derivative divides that by the shortest span
+    reach = np.abs(expected.c).max(axis=0)
+    digits = 1e-15 * float(np.linalg.cond(matrix))
+    motion = FAMILIES[family].trajectory(problem, t)
+    np.testing.assert_allclose(motion.breaks[1:-1], inner * total, rtol=1e-13)
+    shortest = np.diff(vector[degree:-degree]).min()
+    # inside of the spans: the jerk may jump between them
+    fractions = np.linspace(0.02, 0.98, 11)
+    times = (motion.breaks[:-1, None] + fractions * motion.durations[:, None]).ravel()
+    for order in range(4):
+        found = motion.at(times, order) * total**order
+        miss = np.abs(found - expected.derivative(order)(times / motion.seconds))
+        assert (miss <= digits * reach * (degree / shortest) ** order).all()
+
+
+@pytest.mark.parametrize(
+    ("family", "n"),
+    [(f, n) for f in NAMES for n in (1, 2, 3, 4, 7) if FAMILIES[f].refusal(n) is None],
+)
+def test_symbols_are_the_compiled_formula_pattern_by_pattern(family: str, n: int) -> None:
+    chosen = FAMILIES[family]
+    rng = np.random.default_rng(n)
+    problem = Problem.of(rng.normal(size=(n + 1, 2)), Limits.of(1.0, dof=2), family=family)
+    rows = np.exp(rng.uniform(-2.0, 2.0, (200, n)))
+    by_pattern: dict[tuple[int, ...], list[Array]] = {}
+    for row in rows:
+        by_pattern.setdefault(chosen.pattern(row), []).append(row)
+    if family not in B_SPLINES:
+        assert list(by_pattern) == [()]
+    elif n > 2:
+        assert len(by_pattern) > 1
+    for same in sorted(by_pattern.values(), key=len)[-4:]:
+        t = casadi.SX.sym("t", n)
+        lengths, joints = chosen.symbols(problem.waypoints, [t[k] for k in range(n)], same[-1])
+        numbers = [*lengths, *(value for joint in joints for piece in joint for value in piece)]
+        function = casadi.Function("spline", [t], [casadi.vertcat(*numbers)])
+        for row in same[:3]:  # all of a pattern share its symbols
+            values = np.asarray(function(row)).ravel()
+            expected_lengths, expected = pieces(problem, row)
+            m = len(expected_lengths)
+            np.testing.assert_allclose(values[:m], expected_lengths, rtol=1e-12)
+            np.testing.assert_allclose(
+                values[m:].reshape(problem.dof, m, 6),
+                np.moveaxis(expected, 1, 0),
+                rtol=1e-9,
+                atol=1e-11 * np.abs(expected).max(),
+            )
+
+
 # --- laws that hold for every problem and all durations -------------------------------------------
 
 
@@ -189,28 +310,43 @@ def test_4_3_4_solves_the_printed_matrix_of_the_bagging_robot() -> None:
 @settings(max_examples=150)
 def test_splines_interpolate_are_c2_and_rest_at_both_ends(family: str, data: st.DataObject) -> None:
     problem, t = data.draw(candidates(family))
-    c = FAMILIES[family].coefficients(problem, t[None])[0]
-    degrees = FAMILIES[family].degrees(problem.n_segments)
+    lengths, c = pieces(problem, t)
+    degrees = degrees_of(family, problem.n_segments)
+    assert FAMILIES[family].degrees(problem.n_segments) == degrees
+    assert len(c) == len(lengths) == len(degrees)
     for k, degree in enumerate(degrees):
         assert not c[k, :, degree + 1 :].any()
-    if family == "3-5-3":
-        assert degrees == (3, 5, 3)
+    if family in B_SPLINES:
+        assert lengths.sum() == pytest.approx(t.sum(), rel=1e-14)
+        # knots are sums of durations: the length of a short span carries the rounding of the whole
+        clock = t.sum() / lengths.min()
     else:
-        assert degrees == (4, *[3] * (problem.n_segments - 2), 4)
-    # rounding of the displacements and knot velocities that every coefficient is made of
-    size = 25.0 * (rounding(c[..., 1:]) + np.abs(problem.displacements))
+        np.testing.assert_array_equal(lengths, t)
+        clock = 1.0
+    # the waypoints: breakpoints or, of B-splines, inside of the pieces
+    passed = np.concatenate([[0.0], np.cumsum(t)])
+    breaks = np.concatenate([[0.0], np.cumsum(lengths)])
+    piece = np.searchsorted(breaks[1:-1], passed, side="right")
+    if family not in B_SPLINES:
+        piece = np.append(np.arange(len(t)), len(t) - 1)
+        ends = c.sum(axis=-1)
+        assert (np.abs(ends - problem.waypoints[1:]) <= 1e-13 * rounding(c)).all()
+    s = (passed - breaks[piece]) / lengths[piece]
+    found = np.stack([at(c[k], place)[:, 0] for k, place in zip(piece, s, strict=True)])
+    # a spline through many knots passes each to within the rounding of its largest excursion
+    size = rounding(c).max(axis=0) if family in B_SPLINES else rounding(c)[piece]
+    assert (np.abs(found - problem.waypoints) <= 1e-13 * size).all()
+    # coefficients are differences of terms as large as the piece's way, however small they come out
+    way = rounding(c[..., 1:])
     for order in range(3):
         d = derivative(c, order)
-        starts, ends = d[..., 0] / t[:, None] ** order, d.sum(axis=-1) / t[:, None] ** order
-        allowed = 1e-14 * size / t[:, None] ** order
-        if order == 0:
-            offset = 1e-15 * np.abs(problem.waypoints).max()
-            assert (np.abs(starts - problem.waypoints[:-1]) <= allowed + offset).all()
-            assert (np.abs(ends - problem.waypoints[1:]) <= allowed + offset).all()
-        else:
-            # both sides carry the rounding of the whole chain of pieces
-            whole = allowed.max(axis=0)
-            assert (np.abs(ends[:-1] - starts[1:]) <= whole).all()
+        unit = lengths[:, None] ** order
+        starts, ends = d[..., 0] / unit, d.sum(axis=-1) / unit
+        # both sides carry the rounding of the whole chain of pieces
+        allowed = 1e-13 * np.maximum(rounding(d), way) / unit
+        whole = allowed.max(axis=0) * (clock if order else 1.0)
+        assert (np.abs(ends[:-1] - starts[1:]) <= whole).all()
+        if order > 0:
             assert (np.abs(starts[0]) <= whole).all()
             assert (np.abs(ends[-1]) <= whole).all()
 
@@ -219,17 +355,21 @@ def test_splines_interpolate_are_c2_and_rest_at_both_ends(family: str, data: st.
 @given(data=st.data())
 def test_the_trajectory_is_the_same_spline_in_seconds(family: str, data: st.DataObject) -> None:
     problem, t = data.draw(candidates(family, -2.0, 2.0))
-    c = FAMILIES[family].coefficients(problem, t[None])[0]
+    lengths, c = pieces(problem, t)
     motion = FAMILIES[family].trajectory(problem, t)
     assert motion.seconds == pytest.approx(t.sum(), rel=1e-14)
-    starts = np.concatenate([[0.0], np.cumsum(t)[:-1]])
+    np.testing.assert_allclose(motion.passage_times, np.append(0.0, np.cumsum(t)), rtol=1e-14)
+    assert motion.passage_times[-1] == motion.seconds
+    starts = np.concatenate([[0.0], np.cumsum(lengths)[:-1]])
     for s in (0.0, 0.2, 0.7):
         for order in range(4):
-            expected = at(derivative(c, order), s)[..., 0] / t[:, None] ** order
-            allowed = 1e-11 * (rounding(derivative(c, order)) / t[:, None] ** order + 1e-30)
+            unit = lengths[:, None] ** order
+            expected = at(derivative(c, order), s)[..., 0] / unit
+            allowed = 1e-11 * (rounding(derivative(c, order)) / unit + 1e-30)
             # reading at a time rounds it: one derivative more per rounding of the clock
-            allowed += 1e-13 * t.sum() * rounding(derivative(c, order + 1)) / t[:, None] ** (order + 1)
-            found = motion.at(starts + (s + 1e-13) * t, order)
+            next_one = rounding(derivative(c, order + 1)) / (unit * lengths[:, None])
+            allowed += 1e-13 * t.sum() * next_one
+            found = motion.at(starts + (s + 1e-13) * lengths, order)
             assert (np.abs(found - expected) <= allowed).all()
 
 
@@ -268,6 +408,21 @@ def test_the_reversed_problem_has_the_mirrored_motion(family: str, data: st.Data
 
 
 @pytest.mark.parametrize("family", NAMES)
+@pytest.mark.parametrize("tiny", [1e-3, 1e-6, 1e-9])
+def test_a_vanishing_segment_is_as_exact_at_the_end_as_at_the_start(family: str, tiny: float) -> None:
+    """Equal waypoints at an end pull their segment to nothing: no digits may go with it."""
+    points = np.array([[0.0, 1.0], [1.0, 0.5], [1.5, 2.0], [1.5, 2.0]])
+    t = np.array([[2.0, 3.0, tiny]])
+    limits = Limits.of(1.0, 2.0, 5.0, dof=2)
+    there, back = (Problem.of(x, limits, family=family) for x in (points, points[::-1]))
+    chosen = FAMILIES[family]
+    np.testing.assert_allclose(
+        chosen.peaks(there, t), chosen.peaks(back, t[:, ::-1]), rtol=1e-6 if tiny < 1e-6 else 1e-9
+    )
+    assert check(there, chosen.trajectory(there, t[0] * chosen.stretch(there, t))).feasible
+
+
+@pytest.mark.parametrize("family", NAMES)
 @given(data=st.data())
 def test_the_sign_of_a_joint_does_not_matter(family: str, data: st.DataObject) -> None:
     problem, t = data.draw(candidates(family))
@@ -286,14 +441,14 @@ def test_the_sign_of_a_joint_does_not_matter(family: str, data: st.DataObject) -
 def test_peaks_and_stretch_agree_with_dense_samples(family: str, data: st.DataObject) -> None:
     problem, t = data.draw(candidates(family))
     chosen = FAMILIES[family]
-    c = chosen.coefficients(problem, t[None])[0]
+    lengths, c = pieces(problem, t)
     peaks = chosen.peaks(problem, t[None])[0]
     limits = problem.limits.derivatives
     ratios = np.zeros((3, problem.dof))
     for order in (1, 2, 3):
-        sampled = np.abs(dense(c, t, order)).max(axis=(0, 2))
+        sampled = np.abs(dense(c, lengths, order)).max(axis=(0, 2))
         exact = peaks[:, order - 1]
-        slack = 1e-14 * (rounding(derivative(c, order)) / t[:, None] ** order).max(axis=0)
+        slack = 1e-14 * (rounding(derivative(c, order)) / lengths[:, None] ** order).max(axis=0)
         assert (sampled <= exact * (1.0 + 1e-13) + slack).all()
         assert (sampled >= exact * (1.0 - 1e-6) - slack).all()
         ratios[order - 1] = (exact / limits[order - 1]) ** (1.0 / order)
@@ -303,7 +458,8 @@ def test_peaks_and_stretch_agree_with_dense_samples(family: str, data: st.DataOb
         again = t * stretch
         assert chosen.stretch(problem, again[None])[0] == pytest.approx(1.0, rel=1e-12)
         for order in (1, 2, 3):
-            sampled = np.abs(dense(chosen.coefficients(problem, again[None])[0], again, order))
+            lengths, c = pieces(problem, again)
+            sampled = np.abs(dense(c, lengths, order))
             assert (sampled.max(axis=(0, 2)) <= limits[order - 1] * (1.0 + 1e-11)).all()
 
 
@@ -313,10 +469,10 @@ def test_peaks_agree_with_dense_samples_on_shipped_cases(case: str) -> None:
     chosen = FAMILIES[problem.family]
     rng = np.random.default_rng(7)
     for t in np.exp(rng.uniform(np.log(0.05), np.log(20.0), (10, problem.n_segments))):
-        c = chosen.coefficients(problem, t[None])[0]
+        lengths, c = pieces(problem, t)
         peaks = chosen.peaks(problem, t[None])[0]
         for order in (1, 2, 3):
-            sampled = np.abs(dense(c, t, order)).max(axis=(0, 2))
+            sampled = np.abs(dense(c, lengths, order)).max(axis=(0, 2))
             assert (sampled <= peaks[:, order - 1] * (1.0 + 1e-13) + 1e-300).all()
             assert (sampled >= peaks[:, order - 1] * (1.0 - 1e-6)).all()
 
@@ -359,8 +515,8 @@ def test_a_population_that_is_a_strided_view_is_judged_alike() -> None:
 def test_position_excess_agrees_with_dense_samples(family: str, data: st.DataObject) -> None:
     problem, t = data.draw(candidates(family, -2.0, 2.0, position=True))
     chosen = FAMILIES[family]
-    c = chosen.coefficients(problem, t[None])[0]
-    x = dense(c, t, 0)
+    lengths, c = pieces(problem, t)
+    x = dense(c, lengths, 0)
     low, high = problem.position_bounds.T[:, None, :, None]
     sampled = max(float(np.maximum(low - x, x - high).max()), 0.0)
     exact = float(chosen.position_excess(problem, t[None])[0])
@@ -392,15 +548,15 @@ def test_position_excess_in_closed_form() -> None:
 
 @pytest.mark.parametrize("family", NAMES)
 def test_an_infinite_side_of_the_position_limits_never_counts(family: str) -> None:
-    points = np.array([[0.0], [1.0], [1.0], [0.0]])
+    points = np.array([[0.0], [1.0], [1.1], [0.0]])  # past 1.1 with speed, by the mean rule too
     t = np.array([[1.0, 1.0, 1.0]])
     chosen = FAMILIES[family]
     excess = []
-    for bounds in ([-np.inf, 1.0], [0.0, np.inf], [-np.inf, np.inf], [0.0, 1.0]):
+    for bounds in ([-np.inf, 1.1], [0.0, np.inf], [-np.inf, np.inf], [0.0, 1.1]):
         limits = Limits.of(1.0, position=[bounds], dof=1)
         excess.append(float(chosen.position_excess(Problem.of(points, limits, family=family), t)[0]))
     assert excess[0] > 0.01  # it overshoots above
-    assert excess[1] < 1e-15  # and not below
+    assert excess[1] < 1e-14  # and not below, but for rounding
     assert excess[2] == 0.0
     assert excess[3] == excess[0]
 
@@ -456,11 +612,18 @@ def test_the_quartic_pair_of_4_3_4_has_the_closed_form_peaks() -> None:
 def test_even_waypoints_and_times_are_solved_by_hand(family: str, data: st.DataObject) -> None:
     d = data.draw(powers_of_ten(-3.0, 3.0))
     problem = Problem.of([[0.0], [d], [2.0 * d], [3.0 * d]], Limits.of(1.0, dof=1), family=family)
-    c = FAMILIES[family].coefficients(problem, np.ones((1, 3)))[0, :, 0]
-    assert at(c[1], 0.5)[0] == pytest.approx(1.5 * d, rel=1e-13)  # odd symmetry about the middle
-    # 3-5-3: the cube's 3 d; 4-3-4: equal accelerations 6 v - 12 d = 6 d - 4 v - 2 v, so v = 1.5 d
-    speed = 3.0 * d if family == "3-5-3" else 1.5 * d
-    assert derivative(c[1], 1)[0] == pytest.approx(speed, rel=1e-12)
+    motion = FAMILIES[family].trajectory(problem, np.ones(3))
+    assert motion.at(1.5)[0] == pytest.approx(1.5 * d, rel=1e-13)  # odd symmetry about the middle
+    # 3-5-3: the cube's 3 d. 4-3-4: equal accelerations 6 v - 12 d = 6 d - 4 v - 2 v, so v = 1.5 d.
+    # quintic: the mean of d and d. b-spline-3: knots 1/3, 1, 2, 8/3 and control points 0, 0, 0, a, b,
+    # 3, 3, 3 give x(1) = 41/70 a + 8/70 b and v(1) = 9/10 a + 18/35 (b - a); a + b = 3 makes a = 46/33.
+    # b-spline-5: knots 6/5, 9/5; between them 3/2 + A w + B w^3 + C w^5, w = t - 3/2, before them
+    # less D (t - 6/5)^5, with rest at 0 and x(1) = 1: A, B, C, D and the speed are fractions
+    speed = {"3-5-3": 3.0, "4-3-4": 1.5, "quintic": 1.0, "b-spline-3": 15.0 / 11.0}
+    speed["b-spline-5"] = 2210.0 / 1533.0
+    for time in (1.0, 2.0):
+        assert motion.at(time)[0] == pytest.approx(time * d, rel=1e-13)
+        assert motion.at(time, 1)[0] == pytest.approx(speed[family] * d, rel=1e-12)
 
 
 # --- joints and waypoints that do not move --------------------------------------------------------

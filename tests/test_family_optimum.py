@@ -8,11 +8,13 @@ from __future__ import annotations
 
 import functools
 import math
+import sys
+from dataclasses import replace
 from typing import Any
 
 import numpy as np
 import pytest
-from conftest import Array, climbed, powers_of_ten, problems
+from conftest import SOLVED, Array, climbed, powers_of_ten, problems
 from hypothesis import Phase, assume, given, settings
 from hypothesis import strategies as st
 from scipy.optimize import differential_evolution, minimize, minimize_scalar
@@ -39,6 +41,22 @@ NO_SHRINKING = (Phase.explicit, Phase.generate)  # each example costs a second
 KEPT = 1e-9  # rad outside the position limits that counts as inside
 
 
+def inward(problem: Problem, t: Array) -> Array:
+    """Whether joints that rest on a position limit leave it, and come to it, on the inner side.
+
+    Rest leaves the jerk to decide. A dip of d rad outside lasts as long as d^(1/3): what rounding
+    hides can be worth 1e-5 of the time, so no tolerance on the position itself will do.
+    """
+    c = FAMILIES[problem.family].coefficients(problem, t)
+    starts, ends = 6.0 * c[:, 0, :, 3], c[:, -1] @ [0.0, 0.0, 0.0, 6.0, 24.0, 60.0]
+    kept = np.ones(len(t), dtype=bool)
+    for side, sign in ((0, 1.0), (1, -1.0)):
+        bounds = problem.position_bounds[:, side]
+        kept &= (sign * starts >= 0.0)[:, problem.waypoints[0] == bounds].all(axis=1)
+        kept &= (sign * ends <= 0.0)[:, problem.waypoints[-1] == bounds].all(axis=1)
+    return kept
+
+
 def scaled_seconds(problem: Problem, t: Array) -> Array:
     """Total time of durations (n, n_segments), stretched to feasibility; infinite if out of the game.
 
@@ -46,7 +64,7 @@ def scaled_seconds(problem: Problem, t: Array) -> Array:
     """
     family = FAMILIES[problem.family]
     total = t.sum(axis=1)
-    kept = family.position_excess(problem, t) <= KEPT
+    kept = (family.position_excess(problem, t) <= KEPT) & inward(problem, t)
     kept &= t.min(axis=1) >= 1e-7 * total
     return np.where(kept, total * family.stretch(problem, t), np.inf)
 
@@ -164,6 +182,18 @@ def test_shipped_cases_agree_with_differential_evolution(case: str) -> None:
 
 
 @pytest.mark.slow
+@pytest.mark.parametrize("family", ["quintic", "b-spline-3", "b-spline-5"])
+def test_other_families_agree_with_differential_evolution(
+    family: str, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    """Joint 5 starts on its limit and the B-splines lean on it: no slack at all for the oracle."""
+    monkeypatch.setattr(sys.modules[__name__], "KEPT", 1e-13)
+    problem = replace(load("sr4c"), family=family)
+    assert (problem.waypoints[0] == problem.position_bounds[:, 0])[4]
+    agrees(problem, quick(problem))
+
+
+@pytest.mark.slow
 @pytest.mark.parametrize("case", THREE)
 def test_every_joint_alone_agrees_with_differential_evolution(case: str) -> None:
     problem = load(case)
@@ -271,7 +301,7 @@ def test_no_random_candidate_is_faster_in_longer_splines(problem: Problem) -> No
     assert found.seconds <= scaled_seconds(problem, t).min() * (1.0 + 1e-9)
 
 
-@pytest.mark.parametrize("case", CASES)
+@pytest.mark.parametrize("case", SOLVED)
 def test_no_neighbour_of_a_shipped_optimum_is_faster(case: str) -> None:
     found = optimum(case)
     judged(found)
@@ -437,7 +467,7 @@ def test_tiny_and_huge_displacements_are_solved(size: float) -> None:
 # --- the papers' rule -----------------------------------------------------------------------------
 
 
-@pytest.mark.parametrize("case", CASES)
+@pytest.mark.parametrize("case", SOLVED)
 def test_the_longest_segment_rule_never_beats_the_optimum(case: str) -> None:
     problem = load(case)
     alone = [optimum(case, joint).durations for joint in problem.moving_joints]

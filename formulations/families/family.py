@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable
+from collections.abc import Callable, Iterator
 from dataclasses import dataclass
 from typing import Any
 
@@ -10,6 +10,7 @@ import numpy as np
 
 from formulations.errors import InputError, UnsupportedProblem
 from formulations.families import polynomial
+from formulations.families.polynomial import WIDTH
 from formulations.problem import Array, Problem
 from formulations.trajectory import Trajectory
 
@@ -18,21 +19,25 @@ _BLOCK = 256  # candidates whose coefficients fit the processor's cache
 
 @dataclass(frozen=True)
 class Family:
-    """One spline family. The formula stands once, in ``joint``; all else follows from it.
+    """One spline family. Its formula stands once, in its file; all else follows from it.
 
-    joint(x, t, c, work): coefficients of one joint on normalised time from waypoints and durations,
-    compiled, and plain enough to run on CasADi symbols (``joint.py_func``).
-    population(waypoints, durations, out): the same for whole populations, compiled.
+    population(waypoints, durations, lengths, out): the splines of whole populations, compiled:
+    (n+1, dof), (m, n) -> lengths of the polynomial pieces (m, n_pieces) [s] and their coefficients on
+    normalised time, out (m, n_pieces, dof, 6), zeroed before.
+    symbols(waypoints, t, near): the same lines run on symbols t; near: the numeric durations whose
+    pattern of knots holds. Returns lengths per piece, and coefficients per joint and piece.
     degrees(n_segments): polynomial degree of each piece. refusal(n_segments): why not, or None.
+    pattern(durations): what changes the formula's course; equal patterns, equal symbols.
     """
 
     name: str
     title: str
     source: str
-    joint: Callable[..., None]
-    population: Callable[..., None]
+    population: Callable[[Any, Any, Any, Any], None]
+    symbols: Callable[[Array, list[Any], Array], tuple[list[Any], list[Any]]]
     degrees: Callable[[int], tuple[int, ...]]
-    refusal: Callable[[int], str | None]
+    refusal: Callable[[int], str | None] = lambda n_segments: None
+    pattern: Callable[[Array], tuple[int, ...]] = lambda durations: ()
 
     def require(self, problem: Problem) -> None:
         """Raises UnsupportedProblem with the reason if the family has no spline for the problem."""
@@ -40,9 +45,10 @@ class Family:
         if reason is not None:
             raise UnsupportedProblem(f"family: {reason}")
 
-    def coefficients(self, problem: Problem, durations: Array) -> Array:
-        """Coefficients on normalised time of a population: (n, n_segments) [s] ->
-        (n, n_segments, dof, 6) [rad], ascending.
+    def pieces(self, problem: Problem, durations: Array) -> tuple[Array, Array]:
+        """The splines of a population: (n, n_segments) [s] -> lengths (n, n_pieces) [s], coefficients.
+
+        Coefficients on normalised time, (n, n_pieces, dof, 6) [rad], ascending.
         """
         self.require(problem)
         durations = np.ascontiguousarray(durations, dtype=np.float64)
@@ -51,21 +57,36 @@ class Family:
         good = (durations > 0.0) & (durations < np.inf)  # false for NaN
         if not good.all():
             raise InputError(f"durations: must be positive and finite, got {durations[~good][0]:g}")
-        out = polynomial.empty_coefficients(len(durations), problem.n_segments, problem.dof)
-        self.population(problem.waypoints, durations, out)
-        return out
+        n_pieces = len(self.degrees(problem.n_segments))
+        lengths = np.zeros((len(durations), n_pieces))
+        out = np.zeros((len(durations), n_pieces, problem.dof, WIDTH))
+        self.population(problem.waypoints, durations, lengths, out)
+        return lengths, out
+
+    def _blocks(self, problem: Problem, durations: Array) -> Iterator[tuple[slice, Array, Array]]:
+        if not len(durations):
+            self.pieces(problem, durations)  # refuses wrong shapes
+        for start in range(0, len(durations), _BLOCK):
+            rows = slice(start, start + _BLOCK)
+            yield rows, *self.pieces(problem, durations[rows])
+
+    def coefficients(self, problem: Problem, durations: Array) -> Array:
+        """Coefficients on normalised time alone, (n, n_pieces, dof, 6) [rad]."""
+        return self.pieces(problem, durations)[1]
 
     def degrees_of(self, problem: Problem) -> Array:
-        """Polynomial degree of each piece, (n_segments,) integers."""
+        """Polynomial degree of each piece, (n_pieces,) integers."""
         return np.array(self.degrees(problem.n_segments))
 
     def peaks(self, problem: Problem, durations: Array) -> Array:
         """Exact peaks of |velocity|, |acceleration|, |jerk| per joint: (n, n_segments) [s] ->
         (n, dof, 3) [rad/s, rad/s^2, rad/s^3].
         """
+        durations = np.asarray(durations, dtype=np.float64)
         out = np.empty((len(durations), problem.dof, 3))
-        coefficients = self.coefficients(problem, durations)
-        polynomial.peaks(coefficients, self.degrees_of(problem), durations, out)
+        degrees = self.degrees_of(problem)
+        for rows, lengths, coefficients in self._blocks(problem, durations):
+            polynomial.peaks(coefficients, degrees, lengths, out[rows])
         return out
 
     def stretch(self, problem: Problem, durations: Array) -> Array:
@@ -76,10 +97,8 @@ class Family:
         durations = np.asarray(durations, dtype=np.float64)
         out = np.empty(len(durations))
         degrees, limits = self.degrees_of(problem), problem.limits.derivatives
-        for start in range(0, len(durations), _BLOCK):
-            rows = slice(start, start + _BLOCK)
-            coefficients = self.coefficients(problem, durations[rows])
-            polynomial.stretch(coefficients, degrees, durations[rows], limits, out[rows])
+        for rows, lengths, coefficients in self._blocks(problem, durations):
+            polynomial.stretch(coefficients, degrees, lengths, limits, out[rows])
         return out
 
     def position_excess(self, problem: Problem, durations: Array) -> Array:
@@ -87,17 +106,43 @@ class Family:
 
         It depends on the shape alone; no stretch mends it.
         """
-        coefficients = self.coefficients(problem, durations)
-        out = np.zeros(len(coefficients))
-        if problem.limits.has_position:
-            polynomial.position_excess(
-                coefficients, self.degrees_of(problem), problem.position_bounds, out
-            )
+        durations = np.asarray(durations, dtype=np.float64)
+        out = np.zeros(len(durations))
+        degrees, bounds = self.degrees_of(problem), problem.position_bounds
+        for rows, _, coefficients in self._blocks(problem, durations):
+            if problem.limits.has_position:
+                polynomial.position_excess(coefficients, degrees, bounds, out[rows])
         return out
 
     def trajectory(self, problem: Problem, durations: Any) -> Trajectory:
         """The spline for one vector of durations (n_segments,) [s]."""
         t = np.asarray(durations, dtype=np.float64)
-        normalised = self.coefficients(problem, t[None])[0]
-        powers = t[:, None, None] ** np.arange(polynomial.WIDTH)
-        return Trajectory(durations=t, coefficients=normalised / powers)
+        lengths, normalised = (part[0] for part in self.pieces(problem, t[None]))
+        powers = lengths[:, None, None] ** np.arange(WIDTH)
+        passages = np.concatenate([[0.0], np.cumsum(t)])
+        # the last break and the last passage are the same instant, however their sums round
+        passages[-1] = lengths.cumsum()[-1]
+        return Trajectory(lengths, normalised / powers, passages)
+
+
+def scratch(*shape: int) -> Any:
+    """Zeroed arrays that hold symbols, to run compiled formulas on as plain Python."""
+    cells = np.empty(shape, dtype=object)
+    cells.fill(0.0)
+    return cells
+
+
+def on_symbols(
+    joint: Any, *, work: int = 0
+) -> Callable[[Array, list[Any], Array], tuple[list[Any], list[Any]]]:
+    """``symbols`` of a family with one piece per segment and a compiled joint(x, t, c[, work])."""
+
+    def symbols(waypoints: Array, t: list[Any], near: Array) -> tuple[list[Any], list[Any]]:
+        joints = []
+        for x in waypoints.T.tolist():
+            c = scratch(len(t), WIDTH)
+            joint.py_func(x, t, c, *([scratch(work, len(t))] if work else []))
+            joints.append([list(row) for row in c])
+        return t, joints
+
+    return symbols

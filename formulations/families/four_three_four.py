@@ -10,7 +10,7 @@ from typing import Any
 
 import numpy as np
 
-from formulations.families.family import Family
+from formulations.families.family import Family, on_symbols
 from formulations.families.polynomial import compiled
 
 
@@ -60,8 +60,9 @@ def joint(x: Any, t: Any, c: Any, work: Any) -> None:
 
 
 @compiled
-def population(waypoints: Any, durations: Any, out: Any) -> None:
-    """Coefficients of whole populations: (n+1, dof), (m, n) -> out (m, n, dof, 6)."""
+def population(waypoints: Any, durations: Any, lengths: Any, out: Any) -> None:
+    """Whole populations, one piece per segment (see ``Family``)."""
+    lengths[:] = durations
     work = np.zeros((2, durations.shape[1]))
     for i in range(len(durations)):
         for j in range(waypoints.shape[1]):
@@ -78,8 +79,8 @@ FOUR_THREE_FOUR = Family(
     name="4-3-4",
     title="4-3-...-3-4 spline",
     source="001 eq. 8-9",
-    joint=joint,
     population=population,
+    symbols=on_symbols(joint, work=2),
     degrees=lambda n_segments: (4, *(3,) * (n_segments - 2), 4),
     refusal=_refusal,
 )

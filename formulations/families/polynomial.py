@@ -13,8 +13,6 @@ from typing import Any
 import numpy as np
 from numba import njit
 
-from formulations.problem import Array
-
 WIDTH = 6  # coefficients per piece: degree 5 at most
 
 # IEEE division: a candidate with a zero duration is infeasible (inf or NaN), not an exception
@@ -263,8 +261,3 @@ def position_excess(coefficients: Any, degrees: Any, bounds: Any, out: Any) -> N
                     x = _value(c, degree, work[5, r] if r < n_roots else 1.0)
                     worst = max(worst, bounds[j, 0] - x, x - bounds[j, 1])
         out[i] = worst
-
-
-def empty_coefficients(n: int, n_segments: int, dof: int) -> Array:
-    """Zeroed coefficients (n, n_segments, dof, WIDTH) for a family to fill."""
-    return np.zeros((n, n_segments, dof, WIDTH))

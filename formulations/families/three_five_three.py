@@ -9,12 +9,12 @@ from __future__ import annotations
 
 from typing import Any
 
-from formulations.families.family import Family
+from formulations.families.family import Family, on_symbols
 from formulations.families.polynomial import compiled
 
 
 @compiled
-def joint(x: Any, t: Any, c: Any, work: Any) -> None:
+def joint(x: Any, t: Any, c: Any) -> None:
     """Coefficients of one joint on normalised time, c (3, 6), from waypoints x (4,), durations t (3,).
 
     Plain arithmetic alone: the same lines serve floats, populations and CasADi symbols.
@@ -46,11 +46,12 @@ def joint(x: Any, t: Any, c: Any, work: Any) -> None:
 
 
 @compiled
-def population(waypoints: Any, durations: Any, out: Any) -> None:
-    """Coefficients of whole populations: (4, dof), (n, 3) -> out (n, 3, dof, 6)."""
+def population(waypoints: Any, durations: Any, lengths: Any, out: Any) -> None:
+    """Whole populations, one piece per segment (see ``Family``)."""
+    lengths[:] = durations
     for i in range(len(durations)):
         for j in range(waypoints.shape[1]):
-            joint(waypoints[:, j], durations[i], out[i, :, j], durations[i])
+            joint(waypoints[:, j], durations[i], out[i, :, j])
 
 
 def _refusal(n_segments: int) -> str | None:
@@ -63,8 +64,8 @@ THREE_FIVE_THREE = Family(
     name="3-5-3",
     title="3-5-3 spline",
     source="000 eq. 3-7; 002 eq. 1-7; 004 eq. 8-11",
-    joint=joint,
     population=population,
+    symbols=on_symbols(joint),
     degrees=lambda n_segments: (3, 5, 3),
     refusal=_refusal,
 )

@@ -1,0 +1,115 @@
+"""A finished proof as plain data, and on disk: JSON, every float as hexadecimal text, so nothing is
+lost.
+
+    format, family, name; waypoints, limits (null: unlimited), position_slack [rad]; seconds: the bound
+    unlogged   what the events lack, if anything; such a certificate cannot be checked
+    events     in depth-first order (see ``log``), the first letter says which:
+               ["T"] ["E"] ["S", k, value] ["L", rows] ["B", k, value, rows] ["A", k, value, rows]
+               without rows: those of the event before
+    a row      ["p", joint, segment, order, place, sign, multiplier]   a limit inside a piece
+               ["j", joint, segment, sign, multiplier]                 the jerk across an open segment
+               ["t", multiplier] total   ["f", multiplier] first   ["l", multiplier] last
+
+Joints and segments count from 0. ``compare.check_certificate`` replays it in ball arithmetic.
+"""
+
+from __future__ import annotations
+
+import json
+import os
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+
+from formulations.bounds.log import ABOVE, BELOW, EMPTY, LEAF, SPLIT, TURN
+from formulations.bounds.proof import Proof
+from formulations.bounds.rows import (
+    FIRST,
+    JOINT,
+    JUMP,
+    KIND,
+    LAST,
+    MULTIPLIER,
+    ORDER,
+    PLACE,
+    SCALE,
+    SEGMENT,
+    SIGN,
+    TOTAL,
+)
+from formulations.errors import InputError
+from formulations.problem import Array, Problem
+
+FORMAT = "timebound certificate 1"
+_LETTERS = {TURN: "T", EMPTY: "E", LEAF: "L", BELOW: "B", ABOVE: "A", SPLIT: "S"}
+_ALONE = {TOTAL: "t", FIRST: "f", LAST: "l"}
+
+
+def certificate_of(problem: Problem, proof: Proof) -> dict[str, Any]:
+    """The certificate of a proof that was recorded and is proved."""
+    limits = problem.limits
+    return {
+        "format": FORMAT,
+        "family": problem.family,
+        "name": problem.name,
+        "waypoints": _hex(problem.waypoints),
+        "limits": {
+            "velocity": _hex(limits.velocity),
+            "acceleration": _hex(limits.acceleration),
+            "jerk": _hex(limits.jerk),
+            "position": _hex(limits.position),
+        },
+        "position_slack": problem.position_slack.hex(),
+        "seconds": proof.L.hex(),
+        "unlogged": proof.setup.unlogged,
+        "events": _events(problem, proof),
+    }
+
+
+def write_certificate(path: str | Path, certificate: dict[str, Any]) -> None:
+    """Write a certificate whole or not at all. Raises InputError in one line."""
+    path = Path(path)
+    head = json.dumps({key: value for key, value in certificate.items() if key != "events"}, indent=1)
+    lines = ",\n".join(json.dumps(event, separators=(",", ":")) for event in certificate["events"])
+    temporary = path.with_name(path.name + ".part")
+    try:
+        temporary.write_text(f'{head[:-2]},\n "events": [\n{lines}\n]\n}}\n', "utf-8")
+        os.replace(temporary, path)
+    except OSError as error:
+        raise InputError(f"{path}: cannot be written: {error.strerror or error}") from None
+
+
+def _hex(values: Array) -> Any:
+    """Nested lists of hexadecimal floats; null for no limit."""
+    if values.ndim > 1:
+        return [_hex(row) for row in values]
+    return [float(x).hex() if np.isfinite(x) else None for x in values]
+
+
+def _events(problem: Problem, proof: Proof) -> list[list[Any]]:
+    log = proof.log()
+    moving = problem.moving_joints
+    events: list[list[Any]] = []
+    before = b""
+    for (code, k, count), value, rows in zip(log.codes.tolist(), log.values, log.rows, strict=True):
+        event: list[Any] = [_LETTERS[code]]
+        if code in (BELOW, ABOVE, SPLIT):
+            event += [k, float(value).hex()]
+        if code in (BELOW, ABOVE, LEAF):
+            same = rows[:count].tobytes()
+            if same != before:
+                event.append([_row(row, moving) for row in rows[:count].tolist()])
+            before = same
+        events.append(event)
+    return events
+
+
+def _row(row: list[float], moving: list[int]) -> list[Any]:
+    multiplier = (row[MULTIPLIER] / row[SCALE]).hex()
+    if row[KIND] in _ALONE:
+        return [_ALONE[row[KIND]], multiplier]
+    joint, segment, sign = moving[int(row[JOINT])], int(row[SEGMENT]), int(row[SIGN])
+    if row[KIND] == JUMP:
+        return ["j", joint, segment, sign, multiplier]
+    return ["p", joint, segment, int(row[ORDER]), row[PLACE].hex(), sign, multiplier]
