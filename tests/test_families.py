@@ -400,7 +400,7 @@ def test_the_reversed_problem_has_the_mirrored_motion(family: str, data: st.Data
             at(first, s),
             (-1.0) ** order * at(second, 1.0 - s),
             rtol=0.0,
-            atol=1e-10 * max(rounding(there[..., 1:]).max(), 1e-300),
+            atol=1e-11 * max(rounding(first).max(), 1e-300),
         )
     assert FAMILIES[family].stretch(mirror, t[None, ::-1])[0] == pytest.approx(
         FAMILIES[family].stretch(problem, t[None])[0], rel=1e-9
@@ -575,16 +575,6 @@ def test_a_symmetric_3_5_3_has_the_closed_form_peaks() -> None:
         peaks = FAMILIES["3-5-3"].peaks(problem, np.full((1, 3), time))[0, 0]
         assert peaks[0] * time == pytest.approx(15.75, rel=1e-13)
         assert peaks[2] * time**3 == pytest.approx(348.0, rel=1e-13)
-
-
-def test_a_jerk_that_peaks_inside_a_quintic_has_the_closed_form() -> None:
-    """Displacements 1, 4.2, 1: rest = -1.8: no jerk at either end of the quintic, -18 between."""
-    for time in (0.1, 1.0, 3.0):
-        t = np.full((1, 3), time)
-        problem = Problem.of([[0.0], [1.0], [5.2], [6.2]], Limits.of(1e9, jerk=2.25, dof=1))
-        peak = FAMILIES["3-5-3"].peaks(problem, t)[0, 0, 2]
-        assert peak * time**3 == pytest.approx(18.0, rel=1e-12)
-        assert FAMILIES["3-5-3"].stretch(problem, t)[0] * time == pytest.approx(2.0, rel=1e-12)
 
 
 @given(candidate=candidates("3-5-3"))
