@@ -14,13 +14,13 @@ from pathlib import Path
 import matplotlib as mpl
 import matplotlib.pyplot as plt
 import numpy as np
-from formulations.family_bound import family_bound
 from matplotlib.figure import Figure
 
 from compare import commands
 from compare.figures import BLUE, GREEN, GREY, ORANGE, PURPLE, VERMILION, styled
 from compare.run import each, machine, workers
 from formulations import Limits, Problem, family_optimum
+from formulations.family_bound import family_bound
 
 GAPS = (1e-2, 1e-3, 1e-4, 1e-5, 1e-6, 1e-7)
 LIMITED = ("V", "VA", "VAJ")
