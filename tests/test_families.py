@@ -577,6 +577,16 @@ def test_a_symmetric_3_5_3_has_the_closed_form_peaks() -> None:
         assert peaks[2] * time**3 == pytest.approx(348.0, rel=1e-13)
 
 
+def test_a_jerk_that_peaks_inside_a_quintic_has_the_closed_form() -> None:
+    """Displacements 1, 4.2, 1: rest = -1.8: no jerk at either end of the quintic, -18 between."""
+    for time in (0.1, 1.0, 3.0):
+        t = np.full((1, 3), time)
+        problem = Problem.of([[0.0], [1.0], [5.2], [6.2]], Limits.of(1e9, jerk=2.25, dof=1))
+        peak = FAMILIES["3-5-3"].peaks(problem, t)[0, 0, 2]
+        assert peak * time**3 == pytest.approx(18.0, rel=1e-12)
+        assert FAMILIES["3-5-3"].stretch(problem, t)[0] * time == pytest.approx(2.0, rel=1e-12)
+
+
 @given(candidate=candidates("3-5-3"))
 def test_the_cubes_of_3_5_3_bound_its_peaks_from_below(candidate: tuple[Problem, Array]) -> None:
     """Displacement d (t/T)^3: v = 3 d/T and a = 6 d/T^2 at its end, j = 6 d/T^3 throughout."""

@@ -536,6 +536,15 @@ def test_position_limits_that_bind_cut_the_overshoot_and_cost_time() -> None:
         last = found.seconds
 
 
+def test_the_rule_says_how_far_it_leaves_the_position_limits() -> None:
+    rule = longest_segment(bounded(1.2), [np.array([1.0, 2.0, 0.5]), np.array([0.5, 1.0, 1.5])])
+    assert rule.claimed.tolist() == [1.0, 2.0, 1.5]
+    top = FAMILIES["3-5-3"].trajectory(bounded(1.2), rule.claimed).extremes(0).high.max()
+    assert top > 1.5
+    assert rule.position_excess == pytest.approx(top - 1.2, rel=1e-9)
+    assert longest_segment(bounded(9.0), [rule.claimed]).position_excess == 0.0
+
+
 def test_no_feasible_shape_is_said_to_be_none() -> None:
     """The cube reaches the limit with velocity 3 / T1 > 0: whatever follows, it must overshoot."""
     limits = Limits.of(1.0, 1.0, position=[[0.0, 1.0]], dof=1)
