@@ -33,10 +33,12 @@ from formulations.bounds.proof import NARROW, Setup
 from formulations.bounds.three_five_three_lagrangian import BASIS
 from formulations.bounds.three_five_three_search import MOST_ROWS, STACK, search
 from formulations.bounds.three_five_three_short import short_middle
+from formulations.compiled import Late
 from formulations.problem import Array, Problem
 
 SHORT = 1e-10  # of L: a middle segment on which nothing moves may be as short as it likes
 _SHORT_BOXES = 20_000
+_search = Late(search)
 
 
 def shortest_segments(data: Data, L: float) -> Array:
@@ -75,7 +77,7 @@ def begin(problem: Problem, L: float, *, narrow: float = NARROW, aside: bool = F
                 stack[0, 1, x] = slack[1] / shortest[k] * MORE
 
     def advance(depth: int, max_boxes: int, counts: Any, log: Any) -> tuple[int, bool]:
-        return search(
+        return _search(
             stack, depth, data.d, compiled_data, has, shortest, L, max_boxes, narrow, aside, counts, log
         )
 

@@ -15,7 +15,7 @@ from typing import Any
 import numpy as np
 
 from formulations.bounds.outward import add, down, horner, multiply, up
-from formulations.families.polynomial import compiled
+from formulations.compiled import compiled
 
 
 @compiled

@@ -15,8 +15,9 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
+from formulations.compiled import compiled
 from formulations.families.family import Family, scratch
-from formulations.families.polynomial import WIDTH, compiled
+from formulations.families.polynomial import WIDTH
 from formulations.problem import Array
 
 
