@@ -8,6 +8,7 @@ from __future__ import annotations
 
 import csv
 import os
+from concurrent.futures import ProcessPoolExecutor
 from dataclasses import asdict, dataclass
 from pathlib import Path
 
@@ -164,6 +165,21 @@ def draw(costs: list[Cost], folder: Path) -> None:
     plt.close(figure)
 
 
+def study(pool: ProcessPoolExecutor, wanted: list[Task], folder: Path) -> list[Cost]:
+    """Prove them all, a row in DIR/proofs.csv as each ends, and draw what it cost."""
+    costs: list[Cost] = []
+    with (folder / "proofs.csv").open("w", newline="", encoding="utf-8") as lines:
+        writer = csv.DictWriter(lines, list(Cost.__annotations__))
+        writer.writeheader()
+        for cost in each(pool, "proofs", prove, [(task,) for task in wanted]):
+            writer.writerow(asdict(cost))
+            lines.flush()
+            costs.append(cost)
+    costs.sort(key=lambda cost: (cost.series, cost.segments, cost.limited, cost.seed, cost.gap_asked))
+    draw(costs, folder)
+    return costs
+
+
 def main() -> int:
     """Prove random problems and draw what it cost."""
     parser = commands.parser(
@@ -180,18 +196,8 @@ def main() -> int:
     for key in ("count", "segments", "each", "jobs"):
         commands.positive(f"--{key}", getattr(options, key))
     folder = commands.output_folder(options.out)
-    costs: list[Cost] = []
-    with (folder / "proofs.csv").open("w", newline="", encoding="utf-8") as lines:
-        writer = csv.DictWriter(lines, list(Cost.__annotations__))
-        writer.writeheader()
-        with workers(options.jobs) as pool:
-            calls = [(task,) for task in tasks(options.count, options.segments, options.each)]
-            for cost in each(pool, "proofs", prove, calls):
-                writer.writerow(asdict(cost))
-                lines.flush()
-                costs.append(cost)
-    costs.sort(key=lambda cost: (cost.series, cost.segments, cost.limited, cost.seed, cost.gap_asked))
-    draw(costs, folder)
+    with workers(options.jobs) as pool:
+        costs = study(pool, tasks(options.count, options.segments, options.each), folder)
     print(as_text(costs))
     print(machine())
     return commands.DONE
