@@ -18,8 +18,8 @@ import numpy as np
 from matplotlib.figure import Figure
 
 from compare import commands
-from compare.figures import BLUE, GREEN, GREY, ORANGE, PURPLE, VERMILION, styled
 from compare.run import each, machine, workers
+from compare.style import BLUE, GREEN, GREY, ORANGE, PURPLE, VERMILION, styled
 from formulations import Limits, Problem, family_optimum
 from formulations.family_bound import family_bound
 
