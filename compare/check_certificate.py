@@ -360,7 +360,7 @@ class ThreeFiveThree(Tree):
 
         Derivative k >= 1 of the middle piece times T2^(k-1) is d1/T1 (B + C r) + d3/T3 (E + F q), r in
         [0, tau/T1], q in [0, tau/T3], against at most limit tau^(k-1). An end on which nothing moves
-        is left out, and the rest stretched to L: T1 = 0 if it is the first, T1 in [L - tau, L] if the last.
+        is left out, the rest stretched to L: T1 = 0 if it is the first, T1 in [L - tau, L] if the last.
         """
         claim, d = self.claim, self.claim.d
         if not isinstance(claim.short, dict):
