@@ -36,7 +36,7 @@ from formulations.problem import Array, Problem
 _CELLS = 10  # per segment, once a single one is not enough
 _KEPT = 6  # sets of multipliers that are tried again on finer cells
 _MOST_ROWS = 60  # per segment
-_MOST_TRIPLES = 2_000_000
+_MANY, _MOST_TRIPLES = 100_000, 4_000_000  # triples, above which one segment is cut at a time; in all
 _MARGIN = 1e-12  # of L: lets a checker with other orders of operations agree
 _WIDE = 0.4  # of the widest cell: wider ones are cut
 _SHAPE = 0.1  # what a cell's width in log x counts beside that in seconds
@@ -190,7 +190,10 @@ class Search:
             for lo, hi in zip(self.chain.lo, self.chain.hi, strict=True)
         ]
         widest = max(width.max() for width in widths)
-        for k in np.flatnonzero(self._moves).tolist():
+        wanted = np.flatnonzero(self._moves)
+        if self.chain.size > _MANY:
+            wanted = wanted[[int(np.argmax([widths[k].max() for k in wanted]))]]
+        for k in wanted.tolist():
             lo, hi = self.chain.lo[k], self.chain.hi[k]
             wide = widths[k] > (_WIDE * widest if cells == 2 else 0.0)
             powers = np.arange(1, cells) / cells
