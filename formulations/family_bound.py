@@ -40,8 +40,8 @@ PROVERS: dict[str, Prover] = {
     "quintic": quintic.begin,
 }
 
-# of a B-spline each piece depends on every duration; enclosures of it are of use only on boxes so narrow
-# that there are too many
+# of a B-spline each piece depends on every duration: enclosures are of use only on boxes so narrow that
+# there are too many
 _EVERY_MOTION = "what is proved holds for every motion through the waypoints, not for B-splines alone"
 
 _STRAIGHT = 0.1  # share of the time limit for going straight to the gap that was asked for
@@ -49,7 +49,7 @@ _SLICE = 0.02  # s between looks at the clock
 _SMALLEST = 1e-150  # rad; squares and quotients of smaller displacements leave the range of floats
 _RESTARTS = 30  # better basins the proof may find
 _BETTER = 1e-12  # relative; less is rounding
-_LOOK = 9.0  # times what the NLP took, before it is asked again
+_LOOK, _FIRST_LOOK = 9.0, 0.03  # times what the NLP took [s], before it is asked again; at first
 
 
 @dataclass(frozen=True)
@@ -139,11 +139,10 @@ def family_bound(
     status = pursuit.run(gap, time_limit)
     proof, certificate = pursuit.best, None
     seconds = max(simple, proof.seconds if proof else 0.0)
-    if record:
-        better = proof is not None and proof.seconds >= simple
-        certificate = (
-            certificate_of_proof(problem, proof) if better else certificate_of(problem, simple)
-        )
+    if record and proof is not None and proof.seconds >= simple:
+        certificate = certificate_of_proof(problem, proof)
+    elif record:
+        certificate = certificate_of(problem, simple)
     return answer(seconds, pursuit.durations, pursuit.upper, pursuit.boxes, status, certificate)
 
 
@@ -257,7 +256,7 @@ class _Pursuit:
 
         For one, the NLP looks near what an anytime attempt cannot discard, a tenth of the time.
         """
-        slice_, looked, cost = 32, time.perf_counter(), 0.0
+        slice_, looked, cost = 32, time.perf_counter(), _FIRST_LOOK
         while not (proof.proved or proof.stuck):
             before, clock = proof.boxes, time.perf_counter()
             if clock >= self.deadline:

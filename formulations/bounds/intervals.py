@@ -1,7 +1,7 @@
 """Interval arithmetic on whole arrays, rounded outward by the lemma in ``outward``.
 
-An interval is a pair (lo, hi) of arrays that broadcast. Sums of many floats use a second lemma: m floats
-added in any order err by at most 2 m u times the sum of their sizes (u = 2^-53, m u < 0.01).
+An interval is a pair (lo, hi) of arrays that broadcast. Sums of many floats use a second lemma: m
+floats added in any order err by at most 2 m u times the sum of their sizes (u = 2^-53, m u < 0.01).
 """
 
 from __future__ import annotations
@@ -55,7 +55,7 @@ def polynomial(coefficients: Array, s: Any) -> Interval:
     return value
 
 
-def least_sum(terms: Array, index: Array, size: int) -> Array:
+def least_sum(terms: Array, index: Any, size: int) -> Array:
     """Lower bounds of the sums of terms (m,) that share an index (m,): (size,)."""
     total, sizes = np.zeros(size), np.zeros(size)
     np.add.at(total, index, terms)

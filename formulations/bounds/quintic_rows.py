@@ -60,7 +60,8 @@ class Rows:
     @staticmethod
     def of(parts: list[Rows]) -> Rows:
         """All rows of several."""
-        return Rows(*(np.concatenate(each) for each in zip(*(vars(p).values() for p in parts), strict=True)))
+        columns = zip(*(vars(part).values() for part in parts), strict=True)
+        return Rows(*(np.concatenate(column) for column in columns))
 
     @property
     def power(self) -> Any:
