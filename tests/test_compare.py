@@ -290,7 +290,7 @@ def test_one_worker_and_two_write_the_same_rows(report: Path, tmp_path: Path) ->
 def test_the_page_stands_alone_and_holds_what_it_promises(report: Path) -> None:
     page = (report / "index.html").read_text()
     sources = re.findall(r'src="([^"]{0,40})', page)
-    assert len(sources) == 8
+    assert len(sources) == 10
     assert all(source.startswith("data:image/svg+xml;base64,") for source in sources)
     assert "<script" not in page
     assert "<link" not in page
