@@ -1,0 +1,2 @@
+"""x"""
+def solve(*a,**k): raise NotImplementedError
