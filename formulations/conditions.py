@@ -1,4 +1,4 @@
-"""What may be asked of a motion beyond its problem: times, stops, end velocities, limits per segment."""
+"""What may be asked of a motion beyond its problem: times, stops, end velocities, other limits."""
 
 from __future__ import annotations
 
@@ -29,6 +29,12 @@ class Conditions:
     start_velocity: Array | None = None
     end_velocity: Array | None = None
     segment_limits: Mapping[int, Limits] = field(default_factory=dict)
+
+    @property
+    def none(self) -> bool:
+        """Whether nothing is asked for."""
+        given = (self.total, self.start_velocity, self.end_velocity)
+        return not (self.passage or self.stops or self.segment_limits) and all(v is None for v in given)
 
     def validate(self, problem: Problem) -> None:
         """Raise InputError, with key and value, for what does not fit the problem."""
@@ -68,7 +74,7 @@ class Conditions:
             if not (np.isfinite(time) and time >= 0.0):
                 raise InputError(f"conditions.passage: waypoint {waypoint}: {time:g} s is no time")
             if waypoint == 0 and time != 0.0:
-                raise InputError(f"conditions.passage: waypoint 0: {time:g} s, but motions start at 0 s")
+                raise InputError(f"conditions.passage: waypoint 0: {time:g} s, not the start, 0 s")
             moves = np.ptp(problem.waypoints[before : waypoint + 1], axis=0).any()
             if time < earlier or (moves and time <= earlier):
                 raise InputError(

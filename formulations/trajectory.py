@@ -278,7 +278,9 @@ def check(
 
     for waypoint, time in asked.times(problem).items():
         if len(times) == len(targets) and abs(times[waypoint] - time) > TOLERANCE * time:
-            faults.append(f"passes waypoint {waypoint + 1} at {times[waypoint]:.9g} s, not {time:.9g} s")
+            faults.append(
+                f"passes waypoint {waypoint + 1} at {times[waypoint]:.9g} s, not {time:.9g} s"
+            )
 
     peaks = sorted(
         _peaks(problem, trajectory, asked),

@@ -68,7 +68,8 @@ class Arcs:
         while h.shape[1] < n:
             h, top = _longest_split(h, top)
         total = h.sum(axis=1, keepdims=True)
-        h = np.maximum(h, floor * total / n)
+        if floor > 0.0:
+            h = np.maximum(h, floor * total / n)
         return replace(self, durations=h * total / h.sum(axis=1, keepdims=True), tops=top)
 
     def projected(self, displacements: Array) -> Arcs:
@@ -82,7 +83,11 @@ class Arcs:
         # effect of each top on position, velocity (and acceleration) at the end of its segment
         powers = np.arange(self.order, 0, -1)
         whole = (left + h)[:, None] ** powers[:, None] - left[:, None] ** powers[:, None]
-        rows = whole / np.array([1.0, 1.0, 2.0, 6.0])[powers][:, None] / seconds[:, None] ** powers[:, None]
+        rows = (
+            whole
+            / np.array([1.0, 1.0, 2.0, 6.0])[powers][:, None]
+            / seconds[:, None] ** powers[:, None]
+        )
         inverse = np.linalg.pinv(rows, rcond=1e-14)
         exact = self
         for _ in range(2):
@@ -95,7 +100,8 @@ class Arcs:
 
 
 def _summed(start: Array, steps: Array) -> Array:
-    return start[:, None] + np.concatenate([np.zeros((len(steps), 1)), np.cumsum(steps, axis=1)], axis=1)
+    sums = np.concatenate([np.zeros((len(steps), 1)), np.cumsum(steps, axis=1)], axis=1)
+    return np.asarray(start[:, None] + sums)
 
 
 def _shortest_merged(h: Array, top: Array) -> tuple[Array, Array]:

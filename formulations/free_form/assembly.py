@@ -9,6 +9,7 @@ from __future__ import annotations
 from dataclasses import replace
 
 import numpy as np
+from numpy.typing import NDArray
 
 from formulations.free_form.arcs import Motion
 from formulations.free_form.task import Task
@@ -58,7 +59,7 @@ def trajectory(task: Task, motion: Motion) -> Trajectory:
     return Trajectory(durations, coefficients, passages[task.waypoint_of])
 
 
-def _integrated(h: Array, segment: Array, top: Array, start: Array, order: int) -> Array:
+def _integrated(h: Array, segment: NDArray[np.intp], top: Array, start: Array, order: int) -> Array:
     """Coefficients (n_pieces, 4) from the highest derivative and the state (n_pieces, 3) of the
     waypoint before.
     """
@@ -77,7 +78,7 @@ def _integrated(h: Array, segment: Array, top: Array, start: Array, order: int) 
 
 
 def _ramps(task: Task, passages: Array, grid: float) -> Array:
-    """Start, end of the rise and start of the fall of the trapezoids, (S, 3); empty if there are none."""
+    """Start, end of the rise and start of the fall of the trapezoids, (S, 3); empty if none."""
     if not task.group(1):
         return np.zeros((0, 3))
     length = np.maximum(np.round(RAMP * np.diff(passages) / grid) * grid, grid)

@@ -22,7 +22,9 @@ def polished(task: Task, motion: Motion) -> Motion | str:
     """The fastest motion through the states of ``motion`` at the waypoints, or why there is none."""
     joints = list(motion.joints)
     states = {j: _kept_inside(task, j, arcs.states) for j, arcs in motion.joints.items()}
-    least = least_times(task)
+    for j, given in states.items():
+        given[[0, -1], 0] = task.ends[:, j]
+    least = np.maximum(least_times(task), motion.times if task.times else 0.0)
     times = np.zeros(task.n_segments)
     durations = np.zeros((len(joints), task.n_segments, _PHASES))
     tops = np.zeros_like(durations)
@@ -35,10 +37,7 @@ def polished(task: Task, motion: Motion) -> Motion | str:
         times[k], durations[:, k], tops[:, k] = found
     return Motion(
         times,
-        {
-            j: Arcs(int(task.order[j]), durations[i], tops[i], states[j])
-            for i, j in enumerate(joints)
-        },
+        {j: Arcs(int(task.order[j]), durations[i], tops[i], states[j]) for i, j in enumerate(joints)},
     )
 
 
@@ -46,11 +45,12 @@ def _kept_inside(task: Task, j: int, states: Array) -> Array:
     """States that leave room to bring the acceleration to zero: |v| + a^2 / 2J <= V, (S + 1, 2)."""
     limits = task.limits[:, :, j]
     # a waypoint between two segments keeps the limits of both
-    v, a, jerk = np.minimum(limits[:, [0, *range(task.n_segments)]], limits[:, [*range(task.n_segments), -1]])
+    v, a, jerk = np.minimum(
+        limits[:, [0, *range(task.n_segments)]], limits[:, [*range(task.n_segments), -1]]
+    )
     acceleration = np.clip(states[:, 1], -a * _INSIDE, a * _INSIDE)
     room = np.maximum(v * _INSIDE - acceleration**2 / (2.0 * jerk), 0.0)
     velocity = np.clip(states[:, 0], -room, room)
-    velocity[[0, -1]] = states[[0, -1], 0]
     return np.stack([velocity, acceleration], axis=1)
 
 

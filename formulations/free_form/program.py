@@ -9,10 +9,10 @@
         sum h = T_k                                                                      (4)
         sum [h (v + v+) / 2 - h^2 (a+ - a) / 12] = d                                     (5)
 
-(3) bounds the three Bernstein coefficients of the velocity, hence the velocity at all times; it is exact
-once an arc ends where the acceleration is zero. Joints without a jerk limit have no a: (2) becomes
-|v+ - v| <= A h, (5) sum h (v + v+) / 2 = d. Where a joint has left its position limits in an earlier
-solution, the Bernstein coefficients of its position are bounded too:
+(3) bounds the three Bernstein coefficients of the velocity, hence the velocity at all times; it is
+exact once an arc ends where the acceleration is zero. Joints without a jerk limit have no a: (2) is
+|v+ - v| <= A h, and (5) sum h (v + v+) / 2 = d. Where a joint has left its position limits in an
+earlier solution, the Bernstein coefficients of its position are bounded too:
         x, x + h v / 3, x+ - h v+ / 3 (of order 2: x + h v / 2) within [low, high]       (6)
 
 Free: every arc of every joint has a duration of its own, h >= 0, and the program holds the optimum
@@ -35,14 +35,17 @@ from formulations.problem import Array
 
 POSITION_MARGIN = 1e-9  # rad per (1 + |waypoints|) that solutions stay inside the position limits
 
+Place = tuple[int, int, int, int, int]
+
 
 @dataclass(frozen=True)
 class Shape:
     """All that the symbols of a program depend on; programs of equal shape share them.
 
-    joints: number of joints of order 2 and 3. guarded: (order, index in group, segment) with rows (6),
-    and how many of them to leave out at either end since they hold by themselves. arcs: per segment, of order 2 and 3. timed: waypoints with a fixed time. smooth: the objective is
-    the mean square of jerk over its limit (order 2: acceleration), not the time.
+    joints: number of joints of order 2 and 3. arcs: per segment, of order 2 and 3. timed: waypoints
+    with a fixed time. guarded: order, index in its group and segment of the joints with rows (6), and
+    how many of these to leave out at either end since they hold by themselves. smooth: the objective is
+    the integral of the squares of jerk over limit (order 2: acceleration), not the time.
     """
 
     segments: int
@@ -50,7 +53,7 @@ class Shape:
     arcs: tuple[int, int]
     free: bool
     timed: tuple[int, ...] = ()
-    guarded: tuple[tuple[int, int, int, int, int], ...] = ()
+    guarded: tuple[Place, ...] = ()
     smooth: bool = False
 
 
@@ -87,7 +90,7 @@ class Symbols:
             h = casadi.SX.sym("h", n, steps)
             self.variables.append(casadi.vec(h))
         else:
-            h = casadi.repmat(self.times[per_step].T / arcs, n, 1)
+            h = casadi.repmat(casadi.horzcat(*[self.times[k] / arcs for k in per_step]), n, 1)
         self.variables.append(casadi.vec(v))
         self.parameters += [casadi.vec(top), casadi.vec(d)]
         v0, v1 = v[:, :-1], v[:, 1:]
@@ -207,15 +210,15 @@ class Program:
             self.v_unit = np.minimum(velocity, self.a_unit * span)
         self._set_bounds()
 
-    def _place(self, j: int, k: int) -> tuple[int, int, int, int, int]:
+    def _place(self, j: int, k: int) -> Place:
         """Where rows (6) go. The first coefficients of a segment are the waypoint itself where the
         velocity there is 0, and the first two of a cubic where the acceleration is 0 as well.
         """
         order = int(self.task.order[j])
-        left_out = [
-            (order - 1 if self._rests(j, w) else int(bool(self._on_limit([j])[w, 0]))) for w in (k, k + 1)
-        ]
-        return (order, self.groups[order].index(j), k, *left_out)
+        first, last = (
+            order - 1 if self._rests(j, w) else int(self._on_limit([j])[w, 0]) for w in (k, k + 1)
+        )
+        return order, self.groups[order].index(j), k, first, last
 
     def _rests(self, j: int, waypoint: int) -> bool:
         given = {0: self.task.ends[0, j], self.task.n_segments: self.task.ends[1, j]}
@@ -291,13 +294,16 @@ class Program:
         found = np.repeat(limits, arcs, axis=0)
         return np.asarray(np.minimum(np.vstack([found[:1], found]), np.vstack([found, found[-1:]])))
 
-    def point(self, motion: Motion) -> Array:
-        """A motion on this mesh, or any motion sampled on it, as a starting point."""
+    def point(self, motion: Motion, floor: float = 1e-3) -> Array:
+        """A motion on this mesh, or any motion sampled on it, as a starting point.
+
+        floor: least share of a segment over the number of arcs that an arc is given.
+        """
         parts = [motion.times / self.second]
         for order, joints in self.groups.items():
             n = self.arcs[order - 2]
             if self.free:
-                fitted = [motion.joints[j].fitted(n, 1e-3) for j in joints]
+                fitted = [motion.joints[j].fitted(n, floor) for j in joints]
                 parts.append(np.stack([f.durations for f in fitted], axis=-1).ravel() / self.second)
                 nodes = [_flat(arcs.nodes, arcs.states) for arcs in fitted]
             else:

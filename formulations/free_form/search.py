@@ -1,21 +1,21 @@
-"""The search for the fastest motion: coarse mesh, waypoint states, arcs, finer meshes; the best is kept.
+"""The search for the fastest motion: even steps, waypoint states, arcs, finer meshes; the best is kept.
 
-Whatever a solver returns is assembled to a motion that passes the waypoints exactly, slowed down by the
-least factor that keeps its limits, and judged by the independent check. The first motion offered is stop
-and go, which needs no solver.
+Whatever a solver returns is assembled to a motion that passes the waypoints exactly, slowed down by
+the least factor that keeps its limits, and judged by the independent check. The first motion offered is
+stop and go, which needs no solver.
 """
 
 from __future__ import annotations
 
 import time
 from collections.abc import Callable
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 import numpy as np
 
 from formulations.free_form import ipopt, slp
 from formulations.free_form.arcs import Motion
-from formulations.free_form.assembly import least_times, trajectory
+from formulations.free_form.assembly import trajectory
 from formulations.free_form.polish import polished
 from formulations.free_form.program import Program, Solution
 from formulations.free_form.sensitivity import Sensitivity, sensitivity
@@ -53,7 +53,7 @@ class Search:
     """All that was tried for one task, and the best of it."""
 
     def __init__(self, task: Task, solver: str, progress: Callable[[str, float], None] | None) -> None:
-        self.task, self.progress = task, progress
+        self.task, self.solver, self.progress = task, solver, progress
         self.solve = ipopt.solve if solver == "ipopt" else slp.solve
         self.best: Found | None = None
         self.stages: list[Stage] = []
@@ -61,6 +61,7 @@ class Search:
         self.solved: tuple[Program, Solution, float] | None = None
         self.guarded: frozenset[tuple[int, int]] = frozenset()
         self.second = 1.0
+        self.status = "ok"
         self.clock = time.perf_counter()
 
     def offer(self, name: str, motion: Motion | str, status: str = "") -> Found | None:
@@ -94,9 +95,11 @@ class Search:
         """Search until a finer mesh gains less than a tenth of the tolerance."""
         start = stop_and_go(self.task)
         self.offer("stop and go", start)
+        self.second = float(start.times.mean())
         if not self.task.group(2) and not self.task.group(3):
             return
-        self.second = float(start.times.mean())
+        if self.task.ends.any():  # the closed form starts and ends at rest
+            self.offer("stop and go, by Ruckig", polished(self.task, start))
         arcs, before = mesh, np.inf
         for _ in range(ROUNDS):
             self._round(start, arcs, tolerance)
@@ -106,15 +109,45 @@ class Search:
             arcs, before = (3 * arcs) // 2, now
         self._finish(tolerance)
 
+    def run_timed(self, mesh: int) -> list[str]:
+        """The smoothest motion of a fixed time, or any; then notes say so."""
+        start = stop_and_go(self.task)
+        self.second = float(start.times.mean())
+        if not self.task.group(2) and not self.task.group(3):
+            self.offer("steady", start)
+            return []
+        if self.solve is ipopt.solve:
+            self._solved("smoothest", start, 3 * mesh, free=False, tolerance=_TIGHT, smooth=True)
+            if self.best is not None:
+                return []
+        self._fastest_slowed(mesh)
+        if self.best is None:
+            self.run(mesh, 1e-3)
+        return ["not the smoothest motion: no solution of that program was found"]
+
+    def _fastest_slowed(self, mesh: int) -> None:
+        """The fastest motion slowed down to the time asked for; other conditions may refuse it."""
+        task = self.task
+        asked = replace(task.conditions, total=None, passage={})
+        inner = Search(Task(task.problem, asked), self.solver, None)
+        inner.run(mesh, 1e-3)
+        if inner.best is not None:
+            motion = inner.best.motion
+            factor = task.times[task.n_segments] / float(motion.times.sum())
+            self.offer("fastest, slowed down", motion.stretched(factor))
+
     def _round(self, start: Motion, arcs: int, tolerance: float) -> None:
         """Coarse mesh -> states at the waypoints -> arcs."""
+        exact = not self.task.stretchable  # no stretch mends what a loose solution leaves
         coarse = self._solved("even steps", start, arcs + arcs // 2, free=False, tolerance=1e-4)
         states = polished(self.task, coarse)
         self.offer("waypoint states", states)
         first = start if isinstance(states, str) else states
-        self._solved("arcs", first, arcs, free=True, tolerance=_LOOSE)
+        self._solved("arcs", first, arcs, free=True, tolerance=_TIGHT if exact else _LOOSE)
 
-    def _solved(self, name: str, start: Motion, arcs: int, *, free: bool, tolerance: float) -> Motion:
+    def _solved(
+        self, name: str, start: Motion, arcs: int, *, free: bool, tolerance: float, smooth: bool = False
+    ) -> Motion:
         """Solve on one mesh; where the motion leaves the position limits, guard and solve again."""
         for _ in range(_GUARDS):
             program = Program(
@@ -123,6 +156,7 @@ class Search:
                 free=free,
                 second=self.second,
                 guarded=self.guarded,
+                smooth=smooth,
             )
             solution = self.solve(
                 program, program.point(start), tolerance=tolerance, near=1e-4 if free else None
@@ -134,6 +168,8 @@ class Search:
             self.guarded |= outside
             start = motion
         found = self.offer(name, motion, solution.status)
+        if (free or smooth) and self.status in ("", "ok"):
+            self.status = "ok" if solution.converged else solution.status
         if free and found is not None:
             self._remember(program, solution, found.verdict.seconds)
         return motion

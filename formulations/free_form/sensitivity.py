@@ -6,8 +6,8 @@ fastest motion, with s_i = -dT / d log(limit_i) of order o_i, Euler's identity h
 
     sum_i o_i s_i = T
 
-and o_i s_i is the share of the time that a limit holds. Position limits have no share: slowing down does
-not change the path.
+and o_i s_i is the share of the time that a limit holds. Position limits have no share: slowing down
+does not change the path.
 """
 
 from __future__ import annotations
@@ -37,7 +37,7 @@ class Sensitivity:
     @property
     def held(self) -> Array:
         """Seconds of the total time that each limit holds, (3, n_segments, dof): they add up to it."""
-        return -self.limits * np.array([1.0, 2.0, 3.0])[:, None, None]
+        return np.asarray(-self.limits * np.array([1.0, 2.0, 3.0])[:, None, None])
 
 
 def sensitivity(program: Program, solution: Solution) -> Sensitivity:
@@ -69,7 +69,9 @@ def sensitivity(program: Program, solution: Solution) -> Sensitivity:
             part = slice(at, at + size)
             ends = program.high[part] == program.low[part]  # states that are given
             pull = np.where(ends, 0.0, np.abs(solution.bound_multipliers[part])) * program.high[part]
-            limits[derivative][:, joints] -= _by_segment(pull.reshape(-1, len(joints)), S, arcs) * second
+            limits[derivative][:, joints] -= (
+                _by_segment(pull.reshape(-1, len(joints)), S, arcs) * second
+            )
             at += size
 
     # rows

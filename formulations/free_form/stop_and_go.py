@@ -24,7 +24,7 @@ def stop_and_go(task: Task) -> Motion:
     for order in (2, 3):
         for j in task.group(order):
             d = task.displacements[:, j]
-            phases = s_curve(np.abs(d), *task.limits[:, :, j], order)
+            phases = s_curve(np.abs(d), task.limits[:, :, j], order)
             profiles[j] = phases
             least = np.maximum(least, phases.sum(axis=1))
     scale = float(least.sum())
@@ -43,11 +43,12 @@ def stop_and_go(task: Task) -> Motion:
     return Motion(times, joints)
 
 
-def s_curve(distance: Array, velocity: Array, acceleration: Array, jerk: Array, order: int) -> Array:
+def s_curve(distance: Array, limits: Array, order: int) -> Array:
     """Phases of the fastest rest-to-rest motions: (S, 7) [s], without a jerk limit (S, 3).
 
-    All arguments (S,), distance [rad] >= 0.
+    distance: (S,) [rad], not negative. limits: (3, S).
     """
+    velocity, acceleration, jerk = limits
     if order == 2:
         rise = np.minimum(velocity / acceleration, np.sqrt(distance / acceleration))
         cruise = np.maximum(distance - acceleration * rise**2, 0.0) / velocity

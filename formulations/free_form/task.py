@@ -11,6 +11,8 @@ from numpy.typing import NDArray
 from formulations.conditions import Conditions
 from formulations.problem import Array, Problem
 
+_MARGIN = 1e-7  # share that limits are drawn in by where a motion cannot be slowed down
+
 
 @dataclass(frozen=True)
 class Task:
@@ -99,6 +101,11 @@ class Task:
         implied = np.sqrt(2.0 * velocity.max(axis=0, initial=0.0) * jerk.max(axis=0, initial=0.0))
         open_ended = np.isinf(acceleration) & np.isfinite(jerk)
         found[1] = np.where(open_ended, implied, acceleration)
+        if not self.stretchable:
+            # what a solver leaves to its tolerance cannot be mended by slowing down
+            found *= 1.0 - _MARGIN
+            for k, given in ((0, 0), (-1, 1)):
+                found[0, k] = np.maximum(found[0, k], np.abs(self.ends[given]))
         return found
 
     @cached_property
