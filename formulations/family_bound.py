@@ -27,9 +27,9 @@ from formulations.bounds import four_three_four, three_five_three
 from formulations.bounds.certificate import certificate_of
 from formulations.bounds.domain import data_of
 from formulations.bounds.proof import Proof, Prover
-from formulations.errors import InputError
+from formulations.errors import InputError, NoFeasibleMotion
 from formulations.families import FAMILIES
-from formulations.family_optimum import FamilyOptimum, NoFeasibleMotion, family_optimum, polished
+from formulations.family_optimum import FamilyOptimum, family_optimum, polished
 from formulations.problem import Array, Problem
 from formulations.trajectory import TOLERANCE, check
 

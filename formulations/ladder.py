@@ -10,12 +10,11 @@ from dataclasses import dataclass, field
 from functools import partial
 from typing import Any, Literal
 
-from formulations.errors import UnsupportedProblem
+from formulations.errors import NoFeasibleMotion, UnsupportedProblem
 from formulations.families import FAMILIES
 from formulations.family_bound import FamilyBound, family_bound
 from formulations.family_optimum import (
     FamilyOptimum,
-    NoFeasibleMotion,
     each_joint_alone,
     family_optimum,
     longest_segment,

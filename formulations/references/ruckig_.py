@@ -92,7 +92,10 @@ def _rest_to_rest(problem: Problem, start: Array, end: Array) -> tuple[Array, Ar
     task.max_acceleration = limits.acceleration.tolist()
     task.max_jerk = limits.jerk.tolist()
     answer = ruckig.Trajectory(problem.dof)
-    result = ruckig.Ruckig(problem.dof).calculate(task, answer)
+    try:
+        result = ruckig.Ruckig(problem.dof).calculate(task, answer)
+    except (RuntimeError, ValueError) as refusal:  # also a result that its own enumeration lacks
+        return f"Ruckig: {refusal}"
     if result not in (ruckig.Result.Working, ruckig.Result.Finished):
         return f"Ruckig returned {result.name}"
     return pieces_of(answer, start)
