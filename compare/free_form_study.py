@@ -114,7 +114,9 @@ def as_text(answers: list[Answer]) -> str:
         for a in answers
     ]
     header = ["problem", "joints", "segments", "free form [s]", "stop and go [s]", "verified"]
-    return commands.table([*header, "found by", "status", "wall [s]", "CPU [s]"], rows, right=(1, 2, 3, 4, 8, 9))
+    return commands.table(
+        [*header, "found by", "status", "wall [s]", "CPU [s]"], rows, right=(1, 2, 3, 4, 8, 9)
+    )
 
 
 def summary(answers: list[Answer]) -> str:
