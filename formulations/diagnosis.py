@@ -70,12 +70,11 @@ class Diagnosis:
 def diagnose(problem: Problem, found: FreeForm, *, more: float = 0.1, top: int = 4) -> Diagnosis:
     """Share out the time of a free-form motion, and plan again with ``more`` of the ``top`` limits."""
     held = _held(problem, found)
-    order = [
-        (float(held[key]), *(int(i) for i in key))
-        for key in zip(*np.nonzero(held > _LEAST * max(found.seconds, 1e-300)), strict=True)
+    holds = [
+        Hold(int(j), QUANTITIES[o + 1], int(k), float(held[o, k, j]))
+        for o, k, j in np.argwhere(held > _LEAST * max(found.seconds, 1e-300))
     ]
-    order.sort(reverse=True)
-    holds = tuple(Hold(j, QUANTITIES[o + 1], k, seconds) for seconds, o, k, j in order)
+    holds.sort(key=lambda hold: -hold.seconds)
     per_limit = held.sum(axis=1)
     worst = np.argsort(-per_limit, axis=None, kind="stable")[:top]
     savings = []
@@ -84,7 +83,7 @@ def diagnose(problem: Problem, found: FreeForm, *, more: float = 0.1, top: int =
             faster = free_form(_raised(problem, int(o), int(j), 1.0 + more))
             savings.append(Saving(int(j), QUANTITIES[int(o) + 1], more, found.seconds - faster.seconds))
     savings.sort(key=lambda saving: -saving.seconds)
-    return Diagnosis(found.seconds, holds, tuple(savings), found.seconds - float(held.sum()))
+    return Diagnosis(found.seconds, tuple(holds), tuple(savings), found.seconds - float(held.sum()))
 
 
 def _held(problem: Problem, found: FreeForm) -> Array:
