@@ -14,17 +14,12 @@ Conventions, for whatever a paper leaves open:
 
 from metaheuristics.apart import apart
 from metaheuristics.archive import Result
+from metaheuristics.by_name import algorithm
+from metaheuristics.entry import GROUPS, Algorithm, NotReproducible
 from metaheuristics.minimise import minimise
 from metaheuristics.outside.library import MissingLibraryError
 from metaheuristics.plug_in import UnknownAlgorithmError
-from metaheuristics.registry import (
-    ALGORITHMS,
-    GROUPS,
-    NOT_REPRODUCIBLE,
-    Algorithm,
-    NotReproducible,
-    algorithm,
-)
+from metaheuristics.registry import ALGORITHMS, NOT_REPRODUCIBLE
 from metaheuristics.task import ObjectiveError, Status, Task, TaskError
 
 __all__ = [

@@ -28,6 +28,7 @@ Combine: TypeAlias = Callable[[Rows, Array], Array]
 """(rows, sparrow moves (m, dim) in the box) -> what is done instead (m, dim)."""
 
 EPSILON = 1e-50  # of eq. 5
+LARGEST = 700.0  # exponent: more would overflow
 
 
 class Flock:
@@ -130,8 +131,8 @@ def _produced_printed(task: Task, flock: Flock, rows: Rows, t: float) -> Array:
     x, R = flock.x[rows], flock.fitness[rows, None]
     alpha = 1 - task.rng.random((len(rows), 1))
     Q = task.rng.standard_normal((len(rows), 1))
-    with np.errstate(over="ignore"):
-        shrunk = x * np.exp(-t * np.where(np.isfinite(R), R, 0.0) / alpha)  # (8)
+    exponent = -t * np.where(np.isfinite(R), R, 0.0) / alpha
+    shrunk = x * np.exp(np.minimum(exponent, LARGEST))  # (8)
     return np.where(np.median(flock.fitness) > R, shrunk, x + Q)  # (9)
 
 
