@@ -18,6 +18,7 @@ from metaheuristics.bridge import inverted
 from metaheuristics.outside.library import finite
 from metaheuristics.task import Array, Moves, Task
 
+STEP = 1.5e-8  # of a difference on the unit box: the root of the rounding error
 BLOCK = 1024  # Sobol points are balanced in powers of two
 
 
@@ -82,19 +83,33 @@ def nelder_mead(task: Task, *, xatol: float = 1e-10, fatol: float = 1e-12) -> Mo
 
 
 def slsqp(task: Task, *, ftol: float = 1e-12) -> Moves:
-    """Sequential least squares programming from uniform starts."""
-    return _from_many_starts(task, "SLSQP", {"ftol": ftol})
+    """Sequential least squares programming from uniform starts; a gradient is one batch."""
+    return _from_many_starts(task, "SLSQP", {"ftol": ftol}, gradient=True)
 
 
-def _from_many_starts(task: Task, method: str, options: dict[str, float]) -> Moves:
+def _from_many_starts(
+    task: Task, method: str, options: dict[str, float], *, gradient: bool = False
+) -> Moves:
     def call(f: Callable[[Array], Array]) -> None:
-        def unit(z: Array) -> float:
-            x = task.clip(task.lo + (task.hi - task.lo) * z)
-            return float(finite(f(x[None]))[0])
+        def unit(z: Array) -> Array:
+            return finite(f(task.clip(task.lo + (task.hi - task.lo) * z)))
+
+        last: dict[bytes, float] = {}  # a gradient starts from the value just found
+
+        def value(z: Array) -> float:
+            last.clear()
+            last[z.tobytes()] = found = float(unit(z[None])[0])
+            return found
+
+        def slope(z: Array) -> Array:
+            base = last[z.tobytes()] if z.tobytes() in last else value(z)
+            step = np.where(z < 0.5, STEP, -STEP)  # away from the nearer wall
+            return np.asarray((unit(z + np.diag(step)) - base) / step)
 
         bounds = optimize.Bounds(np.zeros(task.dim), np.ones(task.dim))
+        jac = slope if gradient else None
         while True:
             start = task.rng.random(task.dim)
-            optimize.minimize(unit, start, method=method, bounds=bounds, options=options)
+            optimize.minimize(value, start, method=method, jac=jac, bounds=bounds, options=options)
 
     return inverted(task, call, endless=True)
