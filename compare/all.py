@@ -5,13 +5,16 @@ from __future__ import annotations
 import os
 import time
 
-from compare import commands, suite
+from compare import commands, proofs, suite
 from compare.objective import CODINGS
 from compare.report import render
 from compare.run import climb, swarm, warm_up, workers
 from compare.store import Store
 from formulations import CASES, InputError, load
 from metaheuristics import ALGORITHMS
+
+# random 3-5-3 problems, most segments, problems per size: what a proof costs, in the report
+PROOFS = {"default": (40, 5, 1), "full": (1000, 8, 2)}
 
 
 def main() -> int:
@@ -95,6 +98,8 @@ def main() -> int:
     with workers(options.jobs) as pool:
         climb(pool, problems, store, certify=not options.quick)
         swarm(pool, runs, problems, store)
+        if name in PROOFS and options.cases is None:
+            proofs.study(pool, proofs.tasks(*PROOFS[name]), store.folder)
         page = render(pool, store.folder, problems, settings)
     print(f"report: {page} ({len(runs)} runs, {time.perf_counter() - started:.0f} s)")
     return commands.DONE

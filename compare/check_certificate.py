@@ -174,8 +174,7 @@ class Claim:
         self.slack, self.L = number(data.get("position_slack")), number(data.get("seconds"))
         need(self.slack >= 0, "position_slack is negative")
         need(self.L > 0, "the bound is not positive")
-        unlogged = data.get("unlogged")
-        need(unlogged == "", f"the certificate is incomplete: {unlogged!r:.200}")
+        self.short = data.get("short")
         self.events = items(data.get("events"), 0, MOST_EVENTS)
         self.d = [
             [b - a for a, b in zip(*pair, strict=True)]
@@ -341,12 +340,10 @@ class ThreeFiveThree(Tree):
         need(claim.n == 3, "3-5-3 has three segments")
         t = claim.shortest()
         self.has = [not all(x == 0 for x in claim.d[k]) for k in (0, 2)]
-        need(
-            t[1] > 0,
-            "nothing moves on the middle segment, and the certificate does not say what follows",
-        )
         self.t = t = [self.end(0), t[1], self.end(2)]
         self.void = sum(t, R(0)) > claim.L
+        if not self.void and all(x == 0 for x in claim.d[1]):
+            t[1] = self.no_short_middle()
         box = []
         for x in range(2):
             end, other = t[2 * x], t[2 - 2 * x]
@@ -357,6 +354,54 @@ class ThreeFiveThree(Tree):
             )
             box.append([ends[0].lower(), ends[1].upper()])
         self.root = Node(box)
+
+    def no_short_middle(self) -> Any:
+        """Verify that T2 <= tau is impossible where nothing moves on the middle segment; tau.
+
+        Derivative k >= 1 of the middle piece times T2^(k-1) is d1/T1 (B + C r) + d3/T3 (E + F q), r in
+        [0, tau/T1], q in [0, tau/T3], against at most limit tau^(k-1). An end on which nothing moves
+        is left out, the rest stretched to L: T1 = 0 if it is the first, T1 in [L - tau, L] if the last.
+        """
+        claim, d = self.claim, self.claim.d
+        if not isinstance(claim.short, dict):
+            raise BadInput("nothing moves on the middle segment, and short does not say what follows")
+        tau = number(claim.short.get("tau"))
+        need(tau > 0, "tau is not positive")
+        first, last = self.has
+        least_end = (self.t[0] if last else claim.L - tau) if first else R(0)
+        reached = R(0) if not first else claim.L - self.t[2] if last else claim.L
+        for raw in items(claim.short.get("discards"), 1, MOST_EVENTS):
+            raw = items(raw, 3, 7)
+            lo, hi = most(number(raw[1]), R(0)), number(raw[2])
+            need(lo <= hi and not hi < reached, "short: the intervals of T1 leave a gap")
+            reached = lo
+            latest = claim.L - lo
+            earliest = most(self.t[2], claim.L - tau - hi) if last else R(0)
+            if raw[0] == "l" and len(raw) == 3:
+                need(latest < self.t[2], "short: the last segment is long enough")
+                continue
+            if raw[0] != "p" or len(raw) != 7:
+                raise BadInput(f"unknown discard {raw!r:.60}")
+            j, order, s = index(raw[3], claim.dof), index(raw[4], 4), number(raw[5])
+            sign = raw[6]
+            if type(sign) is not int or sign not in (-1, 1):
+                raise BadInput(f"a sign is {sign!r:.40}")
+            need(order >= 1 and 0 <= s <= 1, "short: a row is posed outside its piece")
+            value = (R(0), R(0))
+            p = [sign * derivative(c, order, s) for c in self.MIDDLE]
+            for moves, k, ends in ((first, 0, (lo, hi)), (last, 2, (earliest, latest))):
+                if not moves or d[k][j] == 0:
+                    continue
+                need(ends[0] > 0, "short: an end may take no time")
+                rate = (1 / ends[1], 1 / ends[0])
+                inner = plus((p[1 + k], p[1 + k]), product((p[2 + k], p[2 + k]), (R(0), tau * rate[1])))
+                value = plus(value, product(times(d[k][j], inner), rate))
+            need(
+                value[0] > claim.limit(order, j) * tau ** (order - 1),
+                "short: an interval is not discarded",
+            )
+        need(not reached > least_end, "short: the intervals of T1 leave a gap")
+        return tau
 
     def end(self, k: int) -> Any:
         """A lower bound of a cube's duration: T^i limit_i >= 3|d|, 6|d|, 6|d| for i = 1, 2, 3."""

@@ -3,9 +3,8 @@
 from __future__ import annotations
 
 from collections.abc import Callable
-from functools import wraps
 from pathlib import Path
-from typing import Any, ParamSpec
+from typing import Any
 
 import matplotlib as mpl
 import matplotlib.pyplot as plt
@@ -15,16 +14,24 @@ from matplotlib.figure import Figure
 from matplotlib.lines import Line2D
 
 from compare.grade import Trace, durations_of
+from compare.split import split, split_figure
 from compare.statistics import best_claim, best_row, bound_of, convergence
 from compare.store import Store, key_of
+from compare.style import (
+    BLACK,
+    BLUE,
+    GREEN,
+    GREY,
+    ORANGE,
+    PURPLE,
+    SKY,
+    STYLE,
+    VERMILION,
+    styled,
+)
 from formulations import FAMILIES, Problem, Trajectory, check
 from formulations.problem import Array
 
-# Okabe & Ito (2008): eight colours that colour-blind people can tell apart
-BLACK, ORANGE, SKY, GREEN, YELLOW, BLUE, VERMILION, PURPLE = (
-    "#000000", "#E69F00", "#56B4E9", "#009E73", "#F0E442", "#0072B2", "#D55E00", "#CC79A7",
-)  # fmt: skip
-GREY = "#888888"
 CODING_STYLE: dict[Any, Any] = {
     "published": (VERMILION, "s"),
     "shared": (SKY, "o"),
@@ -51,15 +58,6 @@ RUNG_NAMES = {
     "copp_family_path": "COPP, path of the optimum",
 }
 
-_STYLE: dict[Any, Any] = {
-    "font.size": 9,
-    "axes.spines.top": False,
-    "axes.spines.right": False,
-    "figure.constrained_layout.use": True,
-    "svg.hashsalt": "timebound",
-    "savefig.dpi": 110,
-}
-
 
 def draw_case(folder: str, case: str, problem: Problem) -> list[str]:
     """Draw every figure of one case into ``folder``/figures as SVG and PNG; their names."""
@@ -71,6 +69,7 @@ def draw_case(folder: str, case: str, problem: Problem) -> list[str]:
         "gaps": lambda: gap_figure(problem, rows),
         "convergence": lambda: convergence_figure(problem, ladder, rows, store.traces()),
         "motion": lambda: motion_figure(problem, ladder, rows),
+        "split": lambda: where_the_time_goes(problem, ladder, rows),
     }
     mpl.use("Agg")  # a worker has no screen
     target = Path(folder) / "figures"
@@ -78,7 +77,7 @@ def draw_case(folder: str, case: str, problem: Problem) -> list[str]:
     names = []
     for name, make in draw.items():
         figure = make()
-        with mpl.rc_context(_STYLE):
+        with mpl.rc_context(STYLE):
             figure.draw_without_rendering()
             figure.set_layout_engine("none")  # laid out once for both files
             figure.savefig(target / f"{case}-{name}.svg", metadata={"Date": None})
@@ -88,18 +87,17 @@ def draw_case(folder: str, case: str, problem: Problem) -> list[str]:
     return names
 
 
-P = ParamSpec("P")
-
-
-def styled(draw: Callable[P, Figure]) -> Callable[P, Figure]:
-    """Draw in the report's style wherever the function is called."""
-
-    @wraps(draw)
-    def styled(*args: P.args, **kwargs: P.kwargs) -> Figure:
-        with mpl.rc_context(_STYLE):
-            return draw(*args, **kwargs)
-
-    return styled
+def where_the_time_goes(problem: Problem, ladder: dict[str, Any], rows: list[dict[str, Any]]) -> Figure:
+    """The median motion of one swarm in each coding, from the certified bound up."""
+    swarm = rows[0]["swarm"] if all(row["swarm"] != "pso" for row in rows) else "pso"
+    splits = {}
+    for coding in CODING_STYLE:
+        mine = [r["seconds"] for r in rows if r["swarm"] == swarm and r["coding"] == coding]
+        verified = sorted(seconds for seconds in mine if seconds is not None)
+        if verified and ladder["ladder"]["free_form"]["seconds"]:
+            median = verified[(len(verified) - 1) // 2]
+            splits[coding] = split(ladder["ladder"], median, coding)
+    return split_figure(f"{problem.name}: where the time of {swarm} goes (median seed)", splits)
 
 
 @styled

@@ -8,6 +8,7 @@ from __future__ import annotations
 
 import csv
 import os
+from concurrent.futures import ProcessPoolExecutor
 from dataclasses import asdict, dataclass
 from pathlib import Path
 
@@ -17,8 +18,8 @@ import numpy as np
 from matplotlib.figure import Figure
 
 from compare import commands
-from compare.figures import BLUE, GREEN, GREY, ORANGE, PURPLE, VERMILION, styled
 from compare.run import each, machine, workers
+from compare.style import BLUE, GREEN, GREY, ORANGE, PURPLE, VERMILION, styled
 from formulations import Limits, Problem, family_optimum
 from formulations.family_bound import family_bound
 
@@ -29,14 +30,14 @@ TIME_LIMIT = 60.0  # s per proof
 
 @dataclass(frozen=True)
 class Task:
-    """One random problem and the gap asked for."""
+    """One random problem and the gaps asked for."""
 
     series: str
     segments: int
     joints: int
     limited: str
     seed: int
-    gap: float
+    gaps: tuple[float, ...]
 
 
 @dataclass(frozen=True)
@@ -74,40 +75,48 @@ def random_problem(task: Task) -> Problem:
     return Problem.of(waypoints, limits, name=f"random-{task.seed}")
 
 
-def prove(task: Task) -> Cost:
-    """Pose and prove one problem."""
+def prove(task: Task) -> list[Cost]:
+    """Pose one problem and prove it to every gap."""
     problem = random_problem(task)
     optimum = family_optimum(problem)
-    bound = family_bound(problem, gap=task.gap, time_limit=TIME_LIMIT, optimum=optimum)
     alone = optimum.starts[0].seconds
-    return Cost(
-        **{key: value for key, value in asdict(task).items() if key != "gap"},
-        gap_asked=task.gap,
-        gap_reached=bound.gap,
-        bound=bound.seconds,
-        upper=bound.upper,
-        boxes=bound.boxes,
-        seconds=bound.runtime,
-        status=bound.status,
-        wrong_basin=alone > bound.upper * (1.0 + 1e-6),
-    )
+    costs = []
+    for gap in task.gaps:
+        bound = family_bound(problem, gap=gap, time_limit=TIME_LIMIT, optimum=optimum)
+        costs.append(
+            Cost(
+                series=task.series,
+                segments=task.segments,
+                joints=task.joints,
+                limited=task.limited,
+                seed=task.seed,
+                gap_asked=gap,
+                gap_reached=bound.gap,
+                bound=bound.seconds,
+                upper=bound.upper,
+                boxes=bound.boxes,
+                seconds=bound.runtime,
+                status=bound.status,
+                wrong_basin=alone > bound.upper * (1.0 + 1e-6),
+            )
+        )
+    return costs
 
 
 def tasks(count: int, most_segments: int, each_size: int) -> list[Task]:
     """``count`` random 3-5-3 problems of 1 to 7 joints; six joints with more segments and digits."""
     many = [
-        Task("random 3-5-3", 3, 1 + seed % 7, LIMITED[seed % 3], seed, 1e-5) for seed in range(count)
+        Task("random 3-5-3", 3, 1 + seed % 7, LIMITED[seed % 3], seed, (1e-5,)) for seed in range(count)
     ]
     longer = [
-        Task("segments", segments, 6, limited, seed, 1e-4)
+        Task("segments", segments, 6, limited, seed, (1e-4,))
         for segments in range(2, most_segments + 1)
         for limited in LIMITED
         for seed in range(each_size)
     ]
     finer = [
-        Task("digits", segments, 6, "VA", seed, gap)
+        Task("digits", segments, 6, "VA", seed, GAPS)
         for segments in (3, 4, 5)
-        for gap in GAPS
         for seed in range(each_size)
     ]
     return [*many, *longer, *finer]
@@ -164,6 +173,21 @@ def draw(costs: list[Cost], folder: Path) -> None:
     plt.close(figure)
 
 
+def study(pool: ProcessPoolExecutor, wanted: list[Task], folder: Path) -> list[Cost]:
+    """Prove them all, a row in DIR/proofs.csv as each ends, and draw what it cost."""
+    costs: list[Cost] = []
+    with (folder / "proofs.csv").open("w", newline="", encoding="utf-8") as lines:
+        writer = csv.DictWriter(lines, list(Cost.__annotations__))
+        writer.writeheader()
+        for found in each(pool, "proofs", prove, [(task,) for task in wanted]):
+            writer.writerows(asdict(cost) for cost in found)
+            lines.flush()
+            costs += found
+    costs.sort(key=lambda cost: (cost.series, cost.segments, cost.limited, cost.seed, cost.gap_asked))
+    draw(costs, folder)
+    return costs
+
+
 def main() -> int:
     """Prove random problems and draw what it cost."""
     parser = commands.parser(
@@ -180,18 +204,8 @@ def main() -> int:
     for key in ("count", "segments", "each", "jobs"):
         commands.positive(f"--{key}", getattr(options, key))
     folder = commands.output_folder(options.out)
-    costs: list[Cost] = []
-    with (folder / "proofs.csv").open("w", newline="", encoding="utf-8") as lines:
-        writer = csv.DictWriter(lines, list(Cost.__annotations__))
-        writer.writeheader()
-        with workers(options.jobs) as pool:
-            calls = [(task,) for task in tasks(options.count, options.segments, options.each)]
-            for cost in each(pool, "proofs", prove, calls):
-                writer.writerow(asdict(cost))
-                lines.flush()
-                costs.append(cost)
-    costs.sort(key=lambda cost: (cost.series, cost.segments, cost.limited, cost.seed, cost.gap_asked))
-    draw(costs, folder)
+    with workers(options.jobs) as pool:
+        costs = study(pool, tasks(options.count, options.segments, options.each), folder)
     print(as_text(costs))
     print(machine())
     return commands.DONE

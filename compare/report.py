@@ -24,6 +24,7 @@ FIGURES = {
     "ladder": "Every bound and the best swarm results on one time axis.",
     "gaps": "Gap of every seed; hollow marks: the motion, as claimed, breaks its limits.",
     "motion": "The best motion with its limits, and the best claim in the papers' coding (red).",
+    "split": "Where the time goes: from the certified bound on every motion up to a swarm's motion.",
     "convergence": "Gap against evaluations.",
 }
 

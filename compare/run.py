@@ -147,6 +147,6 @@ def warm_up(problems: dict[str, Problem]) -> None:
     """Compile the kernels once here, so that the workers find them in the cache."""
     for problem in problems.values():
         family = FAMILIES[problem.family]
-        ones = np.ones((1, problem.n_segments))
+        ones = np.ones((2, problem.n_segments))  # a single one is not compiled
         family.stretch(problem, ones)
         family.position_excess(problem, ones)

@@ -6,8 +6,9 @@ import sys
 from pathlib import Path
 
 from compare import commands
-from formulations import Ladder, ladder, load
+from formulations import InputError, Ladder, ladder, load
 from formulations.bounds.certificate import write_certificate
+from formulations.export import write_motion
 from formulations.ladder import MEANINGS
 
 
@@ -24,6 +25,12 @@ def main() -> int:
         "--certificate",
         metavar="FILE",
         help="write the proof of family_lower, for python -m compare.check_certificate",
+    )
+    parser.add_argument(
+        "--export", metavar="FILE", help="write the fastest verified motion (.csv or .json)"
+    )
+    parser.add_argument(
+        "--rate", type=float, help="points a second in that file; left out: where the pieces meet"
     )
     parser.add_argument("--seed", type=int, default=0, help="seed of the NLP's random starts")
     options = parser.parse_args()
@@ -45,9 +52,22 @@ def main() -> int:
     print(as_text(answer))
     if options.json:
         commands.write_json(Path(options.json), answer.to_json())
+    if options.export:
+        _export(options.export, answer, options.rate)
     if options.certificate:
         return _write_certificate(options.certificate, answer)
     return commands.DONE
+
+
+def _export(path: str, answer: Ladder, rate: float | None) -> None:
+    """Write the fastest motion that passed the check."""
+    verified = {key: answer.rungs[key].seconds or 0.0 for key in answer.trajectories}
+    verified = {key: value for key, value in verified.items() if answer.rungs[key].kind == "upper"}
+    if not verified:
+        raise InputError("--export: there is no verified motion")
+    key = min(verified, key=lambda key: verified[key])
+    write_motion(path, answer.trajectories[key], rate=rate)
+    print(f"\n{path}: {key}, {verified[key]:.9g} s")
 
 
 def _write_certificate(path: str, answer: Ladder) -> int:

@@ -183,7 +183,7 @@ class _Pursuit:
         self._adopt(durations)
         if not np.isfinite(self.upper):
             raise InputError("optimum: its motion does not pass the check")
-        self._attempt(self.upper).run(64)  # compiles what a search needs, before the clock runs
+        self._attempt(self.upper).run(1)  # compiles what a search needs, before the clock runs
         self.deadline = np.inf
 
     def run(self, gap: float, time_limit: float) -> str:
@@ -251,7 +251,7 @@ class _Pursuit:
 
     def _adopt(self, durations: Array) -> None:
         """Keep durations, stretched to feasibility, if they beat the best and pass the check."""
-        factor = float(self.family.stretch(self.problem, durations[None])[0])
+        factor = check(self.problem, self.family.trajectory(self.problem, durations)).stretch
         stretched = durations * factor
         if not (np.isfinite(stretched).all() and (stretched > 0.0).all()):
             return

@@ -21,7 +21,7 @@ from formulations.family_optimum import (
     longest_segment,
 )
 from formulations.problem import Array, Problem
-from formulations.references import REFERENCES, Outcome, toppra_on
+from formulations.references import REFERENCES, Outcome, copp_on, toppra_on
 from formulations.trajectory import Trajectory, check
 
 Kind = Literal["lower", "upper", "reference"]
@@ -132,7 +132,7 @@ class _Climb:
         self._add("family_longest_segment", self._longest_segment)
         self._add("toppra_family_path", self._toppra_family_path)
         self._add("toppra_cubic", lambda: REFERENCES["toppra_cubic"](self.problem))
-        self._add("copp_family_path", lambda: Outcome.not_applicable(_NOT_BUILT))
+        self._add("copp_family_path", self._copp_family_path)
         return Ladder(
             self.problem,
             {key: self.rungs[key] for key in MEANINGS},
@@ -229,6 +229,11 @@ class _Climb:
             note=f"{claim}, {broken}",
         )
 
+    def _copp_family_path(self) -> Outcome:
+        if self.optimum is None:
+            return Outcome.not_applicable("there is no family optimum")
+        return copp_on(self.problem, self.optimum.trajectory)
+
     def _toppra_family_path(self) -> Outcome:
         if self.optimum is None:
             return Outcome.not_applicable("there is no family optimum")
@@ -237,7 +242,7 @@ class _Climb:
 
 def versions() -> dict[str, str]:
     """Versions of Python, timebound and the libraries that make the numbers."""
-    packages = ("timebound", "numpy", "scipy", "numba", "casadi", "toppra", "ruckig")
+    packages = ("timebound", "numpy", "scipy", "numba", "casadi", "toppra", "ruckig", "copp-py")
     found = {"python": platform.python_version()}
     for package in packages:
         try:

@@ -2,7 +2,9 @@
 lost.
 
     format, family, name; waypoints, limits (null: unlimited), position_slack [rad]; seconds: the bound
-    unlogged   what the events lack, if anything; such a certificate cannot be checked
+    short      null, or for a middle segment of 3-5-3 on which nothing moves: tau, and what discards
+               T2 <= tau, from the longest T1 down: ["p", lo, hi, joint, order, place, sign] a limit
+               inside it, ["l", lo, hi] the last segment, for T1 in [lo, hi]
     events     in depth-first order (see ``log``), the first letter says which:
                ["T"] ["E"] ["S", k, value] ["L", rows] ["B", k, value, rows] ["A", k, value, rows]
                without rows: those of the event before
@@ -62,7 +64,7 @@ def certificate_of(problem: Problem, proof: Proof) -> dict[str, Any]:
         },
         "position_slack": problem.position_slack.hex(),
         "seconds": proof.L.hex(),
-        "unlogged": proof.setup.unlogged,
+        "short": _short(problem, proof),
         "events": _events(problem, proof),
     }
 
@@ -85,6 +87,21 @@ def _hex(values: Array) -> Any:
     if values.ndim > 1:
         return [_hex(row) for row in values]
     return [float(x).hex() if np.isfinite(x) else None for x in values]
+
+
+def _short(problem: Problem, proof: Proof) -> Any:
+    if proof.setup.short is None:
+        return None
+    tau, leaves = proof.setup.short
+    discards: list[list[Any]] = []
+    for lo, hi, j, order, place, sign in leaves.tolist():
+        where = [lo.hex(), hi.hex()]
+        if order:
+            joint = problem.moving_joints[int(j)]
+            discards.append(["p", *where, joint, int(order), place.hex(), int(sign)])
+        else:
+            discards.append(["l", *where])
+    return {"tau": tau.hex(), "discards": discards}
 
 
 def _events(problem: Problem, proof: Proof) -> list[list[Any]]:

@@ -31,7 +31,7 @@ from formulations.bounds.rows import (
     SIGN,
     TOTAL,
 )
-from formulations.families.polynomial import compiled
+from formulations.compiled import compiled
 
 
 def _basis() -> Any:

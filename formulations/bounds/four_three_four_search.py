@@ -33,7 +33,7 @@ from formulations.bounds.log import (
 from formulations.bounds.multipliers import minimax
 from formulations.bounds.outward import down, up
 from formulations.bounds.rows import MARGIN, MULTIPLIER, WIDTH
-from formulations.families.polynomial import compiled
+from formulations.compiled import compiled
 
 STACK = 2000
 _TURNS = 6

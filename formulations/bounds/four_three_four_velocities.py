@@ -20,7 +20,7 @@ from typing import Any
 import numpy as np
 
 from formulations.bounds.outward import add, down, multiply, scale, up
-from formulations.families.polynomial import compiled
+from formulations.compiled import compiled
 
 VARIES, UNIT, GONE = 0, 1, 2
 

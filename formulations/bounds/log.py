@@ -16,7 +16,7 @@ from typing import Any
 import numpy as np
 
 from formulations.bounds.rows import WIDTH
-from formulations.families.polynomial import compiled
+from formulations.compiled import compiled
 
 TURN, EMPTY, LEAF, BELOW, ABOVE, SPLIT, ASIDE = 0, 1, 2, 3, 4, 5, 6
 

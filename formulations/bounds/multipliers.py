@@ -11,7 +11,7 @@ from typing import Any
 
 import numpy as np
 
-from formulations.families.polynomial import compiled
+from formulations.compiled import compiled
 
 
 @compiled

@@ -11,7 +11,7 @@ from __future__ import annotations
 
 from typing import Any
 
-from formulations.families.polynomial import compiled
+from formulations.compiled import compiled
 
 _GROW = 2.0**-51
 _TINY = 1e-300

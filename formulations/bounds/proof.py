@@ -21,7 +21,8 @@ class Setup:
 
     advance(depth, max_boxes, counts, log) -> (depth, stuck), see ``search``; durations(depth): those at
     the middle of the next box, (n_segments,) [s]. depth 0: L is below the sum of the least durations.
-    impossible: why no search can prove L. unlogged: what a certificate from the log would lack.
+    impossible: why no search can prove L. short: with a middle segment of 3-5-3 on which nothing moves,
+    tau and the discards for T2 <= tau (``three_five_three_short``).
     """
 
     n_variables: int
@@ -30,7 +31,7 @@ class Setup:
     advance: Callable[[int, int, Any, Any], tuple[int, bool]]
     durations: Callable[[int], Array]
     impossible: str = ""
-    unlogged: str = ""
+    short: tuple[float, Array] | None = None
 
 
 class Prover(Protocol):

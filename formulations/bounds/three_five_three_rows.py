@@ -22,7 +22,8 @@ from formulations.bounds.rows import (
     SIGN,
     TOTAL,
 )
-from formulations.families.polynomial import _bracketed_roots, _closed_form_roots, compiled
+from formulations.compiled import compiled
+from formulations.families.polynomial import _bracketed_roots, _closed_form_roots
 
 
 @compiled

@@ -24,7 +24,7 @@ from formulations.bounds.multipliers import minimax
 from formulations.bounds.rows import MARGIN, MULTIPLIER, WIDTH
 from formulations.bounds.three_five_three_lagrangian import excess, middle_range
 from formulations.bounds.three_five_three_rows import candidates, linear
-from formulations.families.polynomial import compiled
+from formulations.compiled import compiled
 
 STACK = 400
 MOST_ROWS = 4  # three variables: a basic solution has four multipliers

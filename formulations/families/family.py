@@ -4,10 +4,12 @@ from __future__ import annotations
 
 from collections.abc import Callable, Iterator
 from dataclasses import dataclass
+from functools import cached_property
 from typing import Any
 
 import numpy as np
 
+from formulations.compiled import Late
 from formulations.errors import InputError, UnsupportedProblem
 from formulations.families import polynomial
 from formulations.families.polynomial import WIDTH
@@ -60,8 +62,14 @@ class Family:
         n_pieces = len(self.degrees(problem.n_segments))
         lengths = np.zeros((len(durations), n_pieces))
         out = np.zeros((len(durations), n_pieces, problem.dof, WIDTH))
-        self.population(problem.waypoints, durations, lengths, out)
+        fill = self._one if len(durations) == 1 else self.population
+        fill(problem.waypoints, durations, lengths, out)
         return lengths, out
+
+    @cached_property
+    def _one(self) -> Late:
+        """``population`` for a single candidate: not worth the compiler's time."""
+        return Late(self.population)
 
     def _blocks(self, problem: Problem, durations: Array) -> Iterator[tuple[slice, Array, Array]]:
         if not len(durations):

@@ -10,8 +10,8 @@ from typing import Any
 
 import numpy as np
 
+from formulations.compiled import compiled
 from formulations.families.family import Family, on_symbols
-from formulations.families.polynomial import compiled
 
 
 @compiled

@@ -11,12 +11,10 @@ from math import inf, sqrt
 from typing import Any
 
 import numpy as np
-from numba import njit
+
+from formulations.compiled import compiled
 
 WIDTH = 6  # coefficients per piece: degree 5 at most
-
-# IEEE division: a candidate with a zero duration is infeasible (inf or NaN), not an exception
-compiled = njit(cache=True, error_model="numpy")
 
 
 @compiled

@@ -9,8 +9,8 @@ from __future__ import annotations
 
 from typing import Any
 
+from formulations.compiled import compiled
 from formulations.families.family import Family, on_symbols
-from formulations.families.polynomial import compiled
 
 
 @compiled

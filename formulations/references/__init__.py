@@ -5,6 +5,7 @@ from __future__ import annotations
 from collections.abc import Callable
 
 from formulations.problem import Problem
+from formulations.references.copp_ import copp_on
 from formulations.references.displacement import displacement
 from formulations.references.reference import Outcome
 from formulations.references.ruckig_ import ruckig_end_to_end, ruckig_stop_and_go
@@ -17,4 +18,4 @@ REFERENCES: dict[str, Callable[[Problem], Outcome]] = {
     "toppra_cubic": toppra_cubic,
 }
 
-__all__ = ["REFERENCES", "Outcome", "toppra_on"]
+__all__ = ["REFERENCES", "Outcome", "copp_on", "toppra_on"]

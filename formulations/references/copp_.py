@@ -1,0 +1,98 @@
+"""COPP (``copp-py``): the jerk-limited optimum along a fixed path, by a sequence of conic programs.
+
+The path is given by the motion's own time, in which a = (ds/dt)^2 = 1 is the motion itself: feasible,
+so the jerk rows can be linearised there to begin with, and then at each better profile in turn. As the
+path stands still in that parameter at both ends, any a there is a start from rest; a = 1 is kept. The
+result is a discretised one: it states its grid and what the last doubling changed.
+"""
+
+from __future__ import annotations
+
+from typing import Any
+
+import numpy as np
+
+from formulations.problem import Array, Problem
+from formulations.references.reference import Outcome
+from formulations.trajectory import Trajectory
+
+_GRIDS = (24, 48)  # intervals per piece
+_SETTLED = 1e-5  # relative change of the time at which linearising again ends
+_TURNS = 12
+_FLOOR = 1e-9  # of a, where the motion all but stands still inside
+
+
+def copp_on(problem: Problem, path: Trajectory) -> Outcome:
+    """Jerk-limited optimum on the path of a motion that keeps the limits; ``copp-py`` if installed."""
+    try:
+        import copp_py
+    except ImportError:
+        return Outcome.not_applicable("copp-py is not installed: pip install 'timebound[copp]'")
+    if not problem.limits.has_jerk:
+        return Outcome.not_applicable("no jerk limit: TOPP-RA is the optimum on this path")
+    if not problem.moving_joints:
+        return Outcome.ok(0.0, note="nothing moves")
+    found: list[float] = []
+    profile: tuple[Array, Array, Array] | None = None
+    for grid in _GRIDS:
+        try:
+            seconds, profile = _refined(problem, path, grid, profile)
+        except copp_py.CoppError as error:
+            return Outcome.failed(f"COPP at {grid} intervals per piece: {error}")
+        found.append(seconds)
+    change = abs(found[-1] / found[-2] - 1.0)
+    return Outcome.ok(
+        found[-1], note=f"{_GRIDS[-1]} grid intervals per piece; grid error {change:.1e}; jerk limited"
+    )
+
+
+def _refined(
+    problem: Problem, path: Trajectory, grid: int, before: tuple[Array, Array, Array] | None
+) -> tuple[float, tuple[Array, Array, Array]]:
+    """Time [s] on one grid, and the profile (s, a, b); before: the profile of a coarser grid."""
+    from copp_py.interpolation import s_to_t_topp3
+    from copp_py.robot import Robot
+    from copp_py.solver import topp3_socp
+
+    conic: Any = topp3_socp  # its stub hides what it exports
+    s = np.append(
+        np.concatenate(
+            [
+                start + duration * np.arange(grid) / grid
+                for start, duration in zip(path.breaks[:-1], path.durations, strict=True)
+            ]
+        ),
+        path.seconds,
+    )
+    moving, n = problem.moving_joints, len(s)
+    robot = Robot(len(moving), capacity=n)
+    robot.append_s(s)
+    q, dq, ddq, dddq = (np.ascontiguousarray(path.at(s, order)[:, moving]) for order in range(4))
+    robot.set_q(q, dq, ddq, 0, dddq=dddq)
+    velocity, acceleration, jerk = problem.limits.derivatives[:, moving]
+    for add, limit in (
+        (robot.add_velocity_limits, velocity),
+        (robot.add_acceleration_limits, acceleration),
+        (robot.add_jerk_limits, jerk),
+    ):
+        if np.isfinite(limit).any():
+            most = np.where(np.isfinite(limit), limit, 1e12 * np.nanmin(limit[np.isfinite(limit)]))
+            add(most, -most, start_idx_s=0, length=n)
+    a = np.ones(n)
+    b: Array | None = None
+    if before is not None:
+        a, b = np.interp(s, before[0], before[1]), np.interp(s, before[0], before[2])
+    last = np.inf
+    for _ in range(_TURNS):
+        task = conic.Problem(
+            robot.constraints, a, a_boundary=(1.0, 1.0), b_boundary=(0.0, 0.0),
+            num_stationary_max=0, b_linearization=b,
+        )  # fmt: skip
+        answer = conic.solve(task)
+        seconds = float(s_to_t_topp3(s, answer)[0])
+        a, b = np.maximum(answer.a, _FLOOR), np.asarray(answer.b)
+        if abs(seconds / last - 1.0) < _SETTLED:
+            break
+        last = seconds
+    assert b is not None
+    return seconds, (s, a, b)
