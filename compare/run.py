@@ -22,6 +22,7 @@ from compare.store import Store, key_of
 from formulations import FAMILIES, Problem, ladder
 from formulations.diagnosis import diagnose
 from formulations.ladder import versions
+from metaheuristics import algorithm
 
 T = TypeVar("T")
 
@@ -86,11 +87,13 @@ def swarm(
         case: {"problem": digest(problem), "versions": versions_text(), "machine": machine()}
         for case, problem in problems.items()
     }
+    libraries = {name: algorithm(name).versions for name in {run.swarm for run in runs}}
     finished = {
         key_of(row)
         for row in store.rows()
         if row["case"] in facts
         and all(row[name] == facts[row["case"]][name] for name in ("problem", "versions"))
+        and row["library"] == libraries.get(row["swarm"])
     }
     left = [run for run in runs if run.key not in finished]
     batches = [left[i : i + _BATCH] for i in range(0, len(left), _BATCH)]
