@@ -36,7 +36,7 @@ from formulations.problem import Array, Problem
 _CELLS = 10  # per segment, once a single one is not enough
 _KEPT = 6  # sets of multipliers that are tried again on finer cells
 _MOST_ROWS = 60  # per segment
-_MOST_TRIPLES = 2_000_000
+_MANY, _MOST_TRIPLES = 100_000, 4_000_000  # triples, above which one segment is cut at a time; in all
 _MARGIN = 1e-12  # of L: lets a checker with other orders of operations agree
 _WIDE = 0.4  # of the widest cell: wider ones are cut
 _SHAPE = 0.1  # what a cell's width in log x counts beside that in seconds
@@ -86,6 +86,7 @@ class Search:
             self._near[self._moves] = np.clip(1.0 / near[shortest > 0.0], lo[self._moves], hi[self._moves])
         self._rows = self.pieces.grid()
         self._kept: list[tuple[Rows, Array]] = []
+        self._turn = -1
         self._events: list[list[Any]] = []
         self.reached, self._last = 0.0, ["L", []]
 
@@ -119,13 +120,14 @@ class Search:
 
     def _discard_sums(self) -> None:
         """Discard by the plain total, the multipliers kept, and new ones about the least path."""
-        greatest = -np.inf
-        for rows, weights in [(self._rows[:0], np.zeros(0)), *self._kept]:
-            least = self._discard(rows, weights)
+        sets = [(self._rows[:0], np.zeros(0)), *self._kept]
+        self._turn = (self._turn + 1) % len(sets)  # each has its own least path
+        for turn, (rows, weights) in enumerate(sets):
+            self._discard(rows, weights)
             if self.chain.empty:
                 return
-            if least > greatest:
-                greatest, self._path = least, self.chain.least_path()
+            if turn == self._turn:
+                self._path = self.chain.least_path()
         lo, hi = self._path
         self._discard(*self._proposed(np.sqrt(lo * hi), lo, hi))
 
@@ -136,10 +138,10 @@ class Search:
         self._rows = Rows.of([every, self._rows])
         return rows, weights
 
-    def _discard(self, rows: Rows, weights: Array) -> float:
-        """Discard by the sum of all conditions; returns its least value before.
+    def _discard(self, rows: Rows, weights: Array) -> None:
+        """Discard by the sum of all conditions.
 
-        No motion left is faster than L and that, and none of those discarded is faster than L.
+        No motion left is faster than L and the least sum, and none discarded is faster than L.
         """
         terms = [down(weights * part) for part in (rows.before, rows.own, rows.after)]
         place = np.concatenate([rows.segment + shift for shift in range(3)])
@@ -161,7 +163,6 @@ class Search:
             self._events.append(event)
         if min(self.L + least, self.L) > self.reached:
             self.reached, self._last = min(self.L + least, self.L), event
-        return least
 
     def _discard_rows(self) -> None:
         """Discard by single rows; keep those that did, and the newest."""
@@ -190,7 +191,10 @@ class Search:
             for lo, hi in zip(self.chain.lo, self.chain.hi, strict=True)
         ]
         widest = max(width.max() for width in widths)
-        for k in np.flatnonzero(self._moves).tolist():
+        wanted = np.flatnonzero(self._moves)
+        if self.chain.size > _MANY:
+            wanted = wanted[[int(np.argmax([widths[k].max() for k in wanted]))]]
+        for k in wanted.tolist():
             lo, hi = self.chain.lo[k], self.chain.hi[k]
             wide = widths[k] > (_WIDE * widest if cells == 2 else 0.0)
             powers = np.arange(1, cells) / cells
