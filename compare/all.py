@@ -5,7 +5,7 @@ from __future__ import annotations
 import os
 import time
 
-from compare import commands, proofs, suite
+from compare import bias, commands, proofs, suite
 from compare.objective import CODINGS
 from compare.report import render
 from compare.run import climb, swarm, warm_up, workers
@@ -15,6 +15,11 @@ from metaheuristics import ALGORITHMS
 
 # random 3-5-3 problems, most segments, problems per size: what a proof costs, in the report
 PROOFS = {"default": (40, 5, 1), "full": (1000, 8, 2)}
+# who is drawn to zero: functions, arms, seeds, evaluations
+BIAS: dict[str, tuple[list[str], list[str], int, int]] = {
+    "default": (["sphere"], ["sr4c"], 5, 2550),
+    "full": (list(bias.FUNCTIONS), ["sr4c", "ur5", "cobot", "bagging"], 10, 5000),
+}
 
 
 def main() -> int:
@@ -100,6 +105,10 @@ def main() -> int:
         swarm(pool, runs, problems, store)
         if name in PROOFS and options.cases is None:
             proofs.study(pool, proofs.tasks(*PROOFS[name]), store.folder)
+        if name in BIAS and options.cases is None:
+            functions, arms, seeds, budget = BIAS[name]
+            bias.study(pool, store.folder, cases=arms, functions=functions, swarms=swarms,
+                       seeds=seeds, budget=budget)  # fmt: skip
         page = render(pool, store.folder, problems, settings)
     print(f"report: {page} ({len(runs)} runs, {time.perf_counter() - started:.0f} s)")
     return commands.DONE
