@@ -99,7 +99,7 @@ class Search:
         if not self.task.group(2) and not self.task.group(3):
             return
         if self.task.ends.any():  # the closed form starts and ends at rest
-            self.offer("stop and go, by Ruckig", polished(self.task, start))
+            self._states("stop and go, by Ruckig", start)
         arcs, before = mesh, np.inf
         for _ in range(ROUNDS):
             self._round(start, arcs, tolerance)
@@ -140,10 +140,23 @@ class Search:
         """Coarse mesh -> states at the waypoints -> arcs."""
         exact = not self.task.stretchable  # no stretch mends what a loose solution leaves
         coarse = self._solved("even steps", start, arcs + arcs // 2, free=False, tolerance=1e-4)
-        states = polished(self.task, coarse)
-        self.offer("waypoint states", states)
-        first = start if isinstance(states, str) else states
-        self._solved("arcs", first, arcs, free=True, tolerance=_TIGHT if exact else _LOOSE)
+        states = self._states("waypoint states", coarse)
+        # where Ruckig refuses, or its profiles are no good start, the even steps themselves
+        starts = [] if isinstance(states, str) else [(states, arcs)]
+        for first, n in [*starts, (coarse, arcs + arcs // 2)]:
+            self._solved("arcs", first, n, free=True, tolerance=_TIGHT if exact else _LOOSE)
+            best = np.inf if self.best is None else self.best.verdict.seconds
+            if self.status == "ok" and self.stages[-1].seconds <= best * (1.0 + 1e-4):
+                break
+
+    def _states(self, name: str, motion: Motion) -> Motion | str:
+        """Ruckig between the states of a motion at the waypoints."""
+        states = polished(self.task, motion)
+        if self.offer(name, states) is None and not self.task.times:
+            other = polished(self.task, motion, by_speed=True)
+            if self.offer(name, other) is not None or isinstance(states, str):
+                return other
+        return states
 
     def _solved(
         self, name: str, start: Motion, arcs: int, *, free: bool, tolerance: float, smooth: bool = False
@@ -168,7 +181,7 @@ class Search:
             self.guarded |= outside
             start = motion
         found = self.offer(name, motion, solution.status)
-        if (free or smooth) and self.status in ("", "ok"):
+        if free or smooth:
             self.status = "ok" if solution.converged else solution.status
         if free and found is not None:
             self._remember(program, solution, found.verdict.seconds)
@@ -202,5 +215,5 @@ class Search:
                 self._remember(program, solution, found.verdict.seconds)
         program, solution, _ = self.solved
         if not self.task.times:
-            self.offer("waypoint states of the arcs", polished(self.task, program.motion(solution.x)))
+            self._states("waypoint states of the arcs", program.motion(solution.x))
         self.sensitivity = sensitivity(program, solution)
