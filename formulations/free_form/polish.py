@@ -80,16 +80,16 @@ def _segment(
     pose.current_velocity, pose.target_velocity = v.tolist()
     pose.current_acceleration, pose.target_acceleration = a.tolist()
     units = scale ** np.arange(1, 4)[:, None] / length
-    highest = np.stack([velocity, acceleration, jerk]) * units
+    limits = np.stack([velocity, acceleration, jerk]) * units
+    highest = limits.copy()
     if not by_speed:
-        highest = np.minimum(highest, _OUT_OF_REACH[:, None])
-        highest[2] = np.where(np.isfinite(jerk), highest[2], np.inf)
-    # what the states need, |v| + a^2 / 2J <= V, they need not have within reach
-    v_most, a_most = np.abs(v).max(axis=0), np.abs(a).max(axis=0)
-    room = np.maximum(velocity * units[0] - v_most, 1e-300)
-    highest[1] = np.maximum(highest[1], a_most / _INSIDE)
-    highest[2] = np.maximum(highest[2], a_most**2 / (2.0 * room * _INSIDE))
-    highest[0] = np.maximum(highest[0], (v_most + a_most**2 / (2.0 * highest[2])) / _INSIDE)
+        reach = np.minimum(limits, _OUT_OF_REACH[:, None])
+        # but what the states need they must have: |v| + a^2 / 2J <= V
+        reach[1] = np.maximum(reach[1], np.abs(a).max(axis=0) / _INSIDE)
+        room = np.maximum(limits[0] - np.abs(v), 1e-300)
+        reach[2] = np.maximum(reach[2], (a**2 / (2.0 * room)).max(axis=0) / _INSIDE)
+        reach[0] = np.maximum(reach[0], (np.abs(v) + a**2 / (2.0 * reach[2])).max(axis=0) / _INSIDE)
+        highest = np.where(np.isfinite(limits), np.minimum(reach, limits), np.inf)
     pose.max_velocity, pose.max_acceleration, pose.max_jerk = highest.tolist()
     if least > 0.0:
         pose.minimum_duration = least / scale

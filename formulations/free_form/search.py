@@ -107,6 +107,9 @@ class Search:
             if tolerance >= 1e-3 or before - now <= 0.1 * tolerance * now:
                 break
             arcs, before = (3 * arcs) // 2, now
+        if self.solved is None and self.solve is ipopt.solve:
+            self.solve = slp.solve
+            self._round(start, mesh, tolerance)
         self._finish(tolerance)
 
     def run_timed(self, mesh: int) -> list[str]:
@@ -138,13 +141,14 @@ class Search:
 
     def _round(self, start: Motion, arcs: int, tolerance: float) -> None:
         """Coarse mesh -> states at the waypoints -> arcs."""
-        exact = not self.task.stretchable  # no stretch mends what a loose solution leaves
+        # no stretch mends what a loose solution leaves where times or end velocities are given
+        digits = _LOOSE if self.task.stretchable else _TIGHT
         coarse = self._solved("even steps", start, arcs + arcs // 2, free=False, tolerance=1e-4)
         states = self._states("waypoint states", coarse)
         # where Ruckig refuses, or its profiles are no good start, the even steps themselves
         starts = [] if isinstance(states, str) else [(states, arcs)]
         for first, n in [*starts, (coarse, arcs + arcs // 2)]:
-            self._solved("arcs", first, n, free=True, tolerance=_TIGHT if exact else _LOOSE)
+            self._solved("arcs", first, n, free=True, tolerance=digits)
             best = np.inf if self.best is None else self.best.verdict.seconds
             if self.status == "ok" and self.stages[-1].seconds <= best * (1.0 + 1e-4):
                 break
@@ -198,8 +202,9 @@ class Search:
         middles = whole.breaks[:-1] + 0.5 * whole.durations
         passages = np.unique(whole.passage_times)
         segment = np.searchsorted(passages, middles) - 1
-        extremes = whole.extremes(0)
-        out = (extremes.low < bounds[segment, :, 0]) | (extremes.high > bounds[segment, :, 1])
+        extremes, slack = whole.extremes(0), self.task.problem.position_slack
+        low, high = bounds[segment, :, 0] - slack, bounds[segment, :, 1] + slack
+        out = (extremes.low < low) | (extremes.high > high)
         return frozenset((int(j), int(segment[i])) for i, j in np.argwhere(out))
 
     def _finish(self, tolerance: float) -> None:
@@ -216,4 +221,5 @@ class Search:
         program, solution, _ = self.solved
         if not self.task.times:
             self._states("waypoint states of the arcs", program.motion(solution.x))
-        self.sensitivity = sensitivity(program, solution)
+        if self.best is not None and self.solved[2] <= self.best.verdict.seconds * (1.0 + 1e-3):
+            self.sensitivity = sensitivity(program, solution)
