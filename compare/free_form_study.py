@@ -1,10 +1,10 @@
-"""``python -m compare.free_form_study``: the fastest motion on the shipped cases and on random problems.
+"""``python -m compare.free_form_study``: the fastest motion on shipped cases and random problems.
 
 A benchmark command, not a test: every answer is judged by the independent check and set beside Ruckig
-with a full stop at each waypoint. Limits of the random problems, in rad: Franka Panda, whose jerk limits
-are very high (Franka Control Interface documentation, "Robot and interface specifications"), and UFACTORY
-xArm6, whose jerk limit is low (UFACTORY docs, "Guide to run robotic arm at the maximum speed": 180 deg/s,
-1146 deg/s^2, 28647 deg/s^3 for every joint).
+with a full stop at each waypoint. Limits of the random problems: Franka Panda, whose jerk limits are
+very high (Franka Control Interface documentation, "Robot and interface specifications"), and UFACTORY
+xArm6, whose jerk limit is low (UFACTORY docs, "Guide to run robotic arm at the maximum speed":
+180 deg/s, 1146 deg/s^2, 28647 deg/s^3 for every joint).
 """
 
 from __future__ import annotations

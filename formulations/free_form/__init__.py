@@ -1,7 +1,7 @@
 """The fastest motion through waypoints, over all motions with bounded velocity, acceleration and jerk.
 
 Task -> stop and go -> program on even steps -> Ruckig between its waypoint states -> program on arcs ->
-trajectory -> independent check; see ``search`` for the order and ``program`` for the equations.
+trajectory -> independent check; see ``search`` for the order and ``equations`` for the program.
 """
 
 from __future__ import annotations

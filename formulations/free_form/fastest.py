@@ -30,8 +30,8 @@ class FreeForm:
 
     durations: (n_segments,) [s]. trajectory, verdict: None where nothing moves and nothing takes time.
     method: the stage that found it. status: ``ok``, or how the local solver ended otherwise; the motion
-    keeps everything asked for in either case. sensitivity: None where no program was solved, or where
-    the time is fixed. stages: all that was tried, in order. runtime: [s].
+    keeps everything asked for in either case. sensitivity: None where no program was solved to within
+    1e-3 of the motion, or where the time is fixed. stages: all that was tried, in order. runtime: [s].
     """
 
     problem: Problem

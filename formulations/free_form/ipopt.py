@@ -7,7 +7,8 @@ from typing import Any
 import casadi
 import numpy as np
 
-from formulations.free_form.program import Program, Shape, Solution
+from formulations.free_form.equations import Shape
+from formulations.free_form.program import Program, Solution
 from formulations.problem import Array
 
 _OPTIONS: dict[str, Any] = {

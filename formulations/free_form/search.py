@@ -99,7 +99,7 @@ class Search:
         if not self.task.group(2) and not self.task.group(3):
             return
         if self.task.ends.any():  # the closed form starts and ends at rest
-            self.offer("stop and go, by Ruckig", polished(self.task, start))
+            self._states("stop and go, by Ruckig", start)
         arcs, before = mesh, np.inf
         for _ in range(ROUNDS):
             self._round(start, arcs, tolerance)
@@ -107,6 +107,9 @@ class Search:
             if tolerance >= 1e-3 or before - now <= 0.1 * tolerance * now:
                 break
             arcs, before = (3 * arcs) // 2, now
+        if self.solved is None and self.solve is ipopt.solve:
+            self.solve = slp.solve
+            self._round(start, mesh, tolerance)
         self._finish(tolerance)
 
     def run_timed(self, mesh: int) -> list[str]:
@@ -138,12 +141,26 @@ class Search:
 
     def _round(self, start: Motion, arcs: int, tolerance: float) -> None:
         """Coarse mesh -> states at the waypoints -> arcs."""
-        exact = not self.task.stretchable  # no stretch mends what a loose solution leaves
+        # no stretch mends what a loose solution leaves where times or end velocities are given
+        digits = _LOOSE if self.task.stretchable else _TIGHT
         coarse = self._solved("even steps", start, arcs + arcs // 2, free=False, tolerance=1e-4)
-        states = polished(self.task, coarse)
-        self.offer("waypoint states", states)
-        first = start if isinstance(states, str) else states
-        self._solved("arcs", first, arcs, free=True, tolerance=_TIGHT if exact else _LOOSE)
+        states = self._states("waypoint states", coarse)
+        # where Ruckig refuses, or its profiles are no good start, the even steps themselves
+        starts = [] if isinstance(states, str) else [(states, arcs)]
+        for first, n in [*starts, (coarse, arcs + arcs // 2)]:
+            self._solved("arcs", first, n, free=True, tolerance=digits)
+            best = np.inf if self.best is None else self.best.verdict.seconds
+            if self.status == "ok" and self.stages[-1].seconds <= best * (1.0 + 1e-4):
+                break
+
+    def _states(self, name: str, motion: Motion) -> Motion | str:
+        """Ruckig between the states of a motion at the waypoints."""
+        states = polished(self.task, motion)
+        if self.offer(name, states) is None and not self.task.times:
+            other = polished(self.task, motion, by_speed=True)
+            if self.offer(name, other) is not None or isinstance(states, str):
+                return other
+        return states
 
     def _solved(
         self, name: str, start: Motion, arcs: int, *, free: bool, tolerance: float, smooth: bool = False
@@ -168,7 +185,7 @@ class Search:
             self.guarded |= outside
             start = motion
         found = self.offer(name, motion, solution.status)
-        if (free or smooth) and self.status in ("", "ok"):
+        if free or smooth:
             self.status = "ok" if solution.converged else solution.status
         if free and found is not None:
             self._remember(program, solution, found.verdict.seconds)
@@ -185,8 +202,9 @@ class Search:
         middles = whole.breaks[:-1] + 0.5 * whole.durations
         passages = np.unique(whole.passage_times)
         segment = np.searchsorted(passages, middles) - 1
-        extremes = whole.extremes(0)
-        out = (extremes.low < bounds[segment, :, 0]) | (extremes.high > bounds[segment, :, 1])
+        extremes, slack = whole.extremes(0), self.task.problem.position_slack
+        low, high = bounds[segment, :, 0] - slack, bounds[segment, :, 1] + slack
+        out = (extremes.low < low) | (extremes.high > high)
         return frozenset((int(j), int(segment[i])) for i, j in np.argwhere(out))
 
     def _finish(self, tolerance: float) -> None:
@@ -202,5 +220,6 @@ class Search:
                 self._remember(program, solution, found.verdict.seconds)
         program, solution, _ = self.solved
         if not self.task.times:
-            self.offer("waypoint states of the arcs", polished(self.task, program.motion(solution.x)))
-        self.sensitivity = sensitivity(program, solution)
+            self._states("waypoint states of the arcs", program.motion(solution.x))
+        if self.best is not None and self.solved[2] <= self.best.verdict.seconds * (1.0 + 1e-3):
+            self.sensitivity = sensitivity(program, solution)

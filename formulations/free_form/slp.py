@@ -15,7 +15,8 @@ import numpy as np
 from scipy import sparse
 from scipy.optimize import linprog
 
-from formulations.free_form.program import Program, Shape, Solution
+from formulations.free_form.equations import Shape
+from formulations.free_form.program import Program, Solution
 from formulations.problem import Array
 
 _LINEARISED: dict[Shape, tuple[Any, Any, Any]] = {}
@@ -43,7 +44,7 @@ def solve(
     iterations: int = 100,
     warm: Solution | None = None,
 ) -> Solution:
-    """Solve from x until a step promises less than ``tolerance`` of the time.
+    """Solve from x until a step promises less than ``tolerance`` of the time, at least HiGHS's own 1e-7.
 
     near, warm: the start is good, and the first box is small.
     """
@@ -51,6 +52,7 @@ def solve(
     nonlinear = np.concatenate(
         [np.full(n, kind in _NONLINEAR) for kind, _, n in program.symbols.kinds] or [np.zeros(0, bool)]
     )
+    tolerance = max(tolerance, 1e-7)
     box = _BOX if near is None and warm is None else 0.1 * _BOX
     weight = 2.0
     p = program.parameters
