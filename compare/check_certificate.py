@@ -709,9 +709,11 @@ class Quintic:
         one = [(R(1), R(1))]
         # a segment on which nothing moves may vanish, and no condition depends on it
         self.counts = [False, *(not x == 0 for x in t), False]
-        domain = [] if self.void else [
-            [((1 / (claim.L - total + x)).lower(), (1 / x).upper())] if x > 0 else one for x in t
-        ]
+        domain = (
+            []
+            if self.void
+            else [[((1 / (claim.L - total + x)).lower(), (1 / x).upper())] if x > 0 else one for x in t]
+        )
         self.cells = [one, *domain, one]
         self.triples: list[list[Quintic.Triple]] = [[(0, 0, 0)] for _ in range(self.n)]
         self.discards = 0
@@ -721,7 +723,9 @@ class Quintic:
         for count, raw in enumerate(self.claim.events, 1):
             event = items(raw, 2, 3)
             if event[0] == "C" and len(event) == 3:
-                self.cut(index(event[1], self.n) + 1, [number(x) for x in items(event[2], 0, MOST_CUTS)])
+                self.cut(
+                    index(event[1], self.n) + 1, [number(x) for x in items(event[2], 0, MOST_CUTS)]
+                )
             elif event[0] in ("R", "L") and len(event) == 2:
                 rows = [self.claim.row(row) for row in items(event[1], 0, MOST_ROWS)]
                 if event[0] == "R":
@@ -780,7 +784,10 @@ class Quintic:
             held[power][k + 1] += m * limit
         const -= sum(held[0], R(0))
         phi = [
-            [least_on(a[k], (nu if self.counts[k] else R(0)) - held[1][k], held[2][k], *ends) for ends in cells]
+            [
+                least_on(a[k], (nu if self.counts[k] else R(0)) - held[1][k], held[2][k], *ends)
+                for ends in cells
+            ]
             for k, cells in enumerate(self.cells)
         ]
         ahead: list[dict[tuple[int, int], Any]] = [
@@ -820,7 +827,10 @@ class Quintic:
         self.cells[k] = cells
         for middle in range(max(k - 2, 0), min(k + 1, self.n)):
             place = k - middle
-            need(sum(len(children[t[place]]) for t in self.triples[middle]) <= MOST_TRIPLES, "too many cells")
+            need(
+                sum(len(children[t[place]]) for t in self.triples[middle]) <= MOST_TRIPLES,
+                "too many cells",
+            )
             self.triples[middle] = [
                 (*t[:place], child, *t[place + 1 :])
                 for t in self.triples[middle]

@@ -95,7 +95,11 @@ class Chain:
         """Ends (n+2,) of the cells of the path with the least of the last sum, and of the padding."""
         cells = [0]
         for k, (triples, least) in enumerate(zip(self.triples, self._least, strict=True)):
-            on = (triples[0] == cells[-2]) & (triples[1] == cells[-1]) if k else np.ones(len(least), bool)
+            on = (
+                (triples[0] == cells[-2]) & (triples[1] == cells[-1])
+                if k
+                else np.ones(len(least), bool)
+            )
             best = int(np.where(on, least, np.inf).argmin())
             if not k:
                 cells.append(int(triples[1, best]))
@@ -125,7 +129,9 @@ class Chain:
             child = children[triples[position]]
             triples, child = triples[:, child[:, 1] > 0], child[child[:, 1] > 0]
             copies = np.repeat(np.arange(triples.shape[1]), child[:, 1])
-            offset = np.arange(len(copies)) - np.repeat(np.cumsum(child[:, 1]) - child[:, 1], child[:, 1])
+            offset = np.arange(len(copies)) - np.repeat(
+                np.cumsum(child[:, 1]) - child[:, 1], child[:, 1]
+            )
             triples = triples[:, copies]
             triples[position] = child[copies, 0] + offset
             self.triples[middle] = triples

@@ -83,7 +83,9 @@ class Search:
         self.chain, self._path = Chain(lo, hi), (lo, hi)
         self._near = np.sqrt(lo * hi)
         if near is not None:
-            self._near[self._moves] = np.clip(1.0 / near[shortest > 0.0], lo[self._moves], hi[self._moves])
+            self._near[self._moves] = np.clip(
+                1.0 / near[shortest > 0.0], lo[self._moves], hi[self._moves]
+            )
         self._rows = self.pieces.grid()
         self._kept: list[tuple[Rows, Array]] = []
         self._turn = -1
@@ -175,9 +177,7 @@ class Search:
                 np.minimum(*(down(part[:, None] * x) for x in cells[shift]))
                 for shift, part in ((0, rows.before), (2, rows.after))
             )
-            own = np.minimum(
-                *(down(down(rows.own[:, None] * x) - _held(rows, x)) for x in cells[1])
-            )
+            own = np.minimum(*(down(down(rows.own[:, None] * x) - _held(rows, x)) for x in cells[1]))
             useful.append(mine[self.chain.discard_rows(k, before, own, after)])
         self._rows = self._rows[np.concatenate(useful)]
         if len(self._rows):

@@ -60,7 +60,9 @@ class Rows:
     @staticmethod
     def of(parts: list[Rows]) -> Rows:
         """All rows of several."""
-        return Rows(*(np.concatenate(each) for each in zip(*(vars(p).values() for p in parts), strict=True)))
+        return Rows(
+            *(np.concatenate(each) for each in zip(*(vars(p).values() for p in parts), strict=True))
+        )
 
     @property
     def power(self) -> Any:

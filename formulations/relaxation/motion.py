@@ -49,9 +49,7 @@ def motion_through(
     box = np.stack([durations, durations], axis=1)
     frame = Frame(task, box, np.stack([-limit, limit], axis=-1), durations)
     program = Program(frame, cuts)
-    point = program.solve(
-        np.zeros(frame.size), rounds=_ROUNDS, tolerance=_TOLERANCE, deadline=deadline
-    )
+    point = program.solve(np.zeros(frame.size), rounds=_ROUNDS, tolerance=_TOLERANCE, deadline=deadline)
     if not point.converged:
         return None
     cost, box = _calmer(problem, task, frame, durations, point.x)
@@ -124,7 +122,6 @@ class _Ends:
             steep &= sign * d <= self.farthest(sign, share)[2]
         return np.asarray(steep)
 
-
     def gentlest(self, d: Array) -> Array:
         """The least share of A and J with which a displacement d can be had, (m,)."""
         low, high = np.zeros_like(d), np.ones_like(d)
@@ -180,9 +177,7 @@ def _way(ends: _Ends, sign: float, share: Array) -> tuple[Array, Array]:
     return breaks, pattern * (sign * share * np.where(limited, ends.J, ends.A))[:, None]
 
 
-def _mixed(
-    ways: list[tuple[Array, Array]], ends: _Ends, mine: slice, d: Array
-) -> tuple[Array, Array]:
+def _mixed(ways: list[tuple[Array, Array]], ends: _Ends, mine: slice, d: Array) -> tuple[Array, Array]:
     """Breaks (m + 1,) common to all joints, and the mixture that covers d, (m, n)."""
     limited = ends.J[mine] > 0.0
     most, least = (_covered(b, w, ends.v0[mine], ends.W0[mine], limited) for b, w in ways)

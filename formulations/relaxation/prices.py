@@ -73,5 +73,3 @@ def _shares(frame: Frame, kind: int, cuts: Cuts, x: Array) -> tuple[Array, Array
         t, e, side = frame.corner(cuts, int(kind == PRODUCT_AT_END))
         return none, np.where(np.abs(e) >= 1.0, side * e * (t - x[frame.T[k]]), 0.0), none
     return none, none, none
-
-

@@ -164,7 +164,13 @@ class Frame:
             # time turned: W changes its sign, and the joint comes from where it would go
             c_W = -c_W if end else c_W
             room = self.room[k + end, j, ((sign > 0.0) != bool(end)).astype(int)] / self.typical[k]
-            columns = [self.v[k + end, j], self.W[k, j, end], self.inverse[k], self.T[k], self.square[k]]
+            columns = [
+                self.v[k + end, j],
+                self.W[k, j, end],
+                self.inverse[k],
+                self.T[k],
+                self.square[k],
+            ]
             a = [sign * c_v, sign * c_W * ramp, -room, -c_A * ramp, -c_J * bend]
             return self._rows(columns, a, np.zeros(len(k)))
         v0, v1, W0, W1 = self.v[k, j], self.v[k + 1, j], self.W[k, j, 0], self.W[k, j, 1]
@@ -193,4 +199,3 @@ class Frame:
         starts = np.arange(0, a.size + 1, a.shape[1])
         matrix = csr_array((a.ravel(), where.ravel(), starts), shape=(len(upper), self.size))
         return Rows(matrix, upper + _ALLOWANCE * size)
-

@@ -23,9 +23,7 @@ from formulations.problem import Array
 _UNIT = 2.0**-53
 
 
-def safe_bound(
-    cost: Array, matrix: csr_array, upper: Array, box: Array, multipliers: Array
-) -> float:
+def safe_bound(cost: Array, matrix: csr_array, upper: Array, box: Array, multipliers: Array) -> float:
     """Lower bound of cost x on {matrix x <= upper, box[:, 0] <= x <= box[:, 1]} (12), -inf at worst.
 
     cost (n,), upper (m,), box (n, 2): finite. multipliers (m,): any; negative ones count as 0.

@@ -96,9 +96,7 @@ class Search:
         while not boxes.empty:
             frame = Frame(task, boxes.durations, boxes.accelerations, typical)
             program = Program(frame, Cuts.joined([_tangents(boxes.durations), cuts]))
-            solution = program.solve(
-                frame.cost, rounds=_ROUNDS, tolerance=tolerance, deadline=deadline
-            )
+            solution = program.solve(frame.cost, rounds=_ROUNDS, tolerance=tolerance, deadline=deadline)
             before = self.seconds
             if solution.empty:
                 break

@@ -20,7 +20,9 @@ from formulations.problem import Array
 _STEPS, _SETTLED = 60, 1e-16
 
 
-def farthest(v0: Array, W0: Array, v1: Array, W1: Array, V: Array, A: Array, J: Array) -> tuple[Array, Array]:
+def farthest(
+    v0: Array, W0: Array, v1: Array, W1: Array, V: Array, A: Array, J: Array
+) -> tuple[Array, Array]:
     """Switches (m, 6) in [0, 1], ascending, and whether there is a piece at top speed, (m,).
 
     All arguments (m,). Where the ends cannot meet in unit time, the nearest c.
@@ -53,7 +55,10 @@ def farthest_without_jerk(v0: Array, v1: Array, V: Array, A: Array) -> tuple[Arr
     up, down = (V - v0) / A, 1.0 - (V - v1) / A
     middle = 0.5 * (1.0 + (v1 - v0) / A)
     cruises = up < down
-    up, down = np.where(cruises, up, middle).clip(0.0, 1.0), np.where(cruises, down, middle).clip(0.0, 1.0)
+    up, down = (
+        np.where(cruises, up, middle).clip(0.0, 1.0),
+        np.where(cruises, down, middle).clip(0.0, 1.0),
+    )
     down = np.maximum(up, down)
     zero, one = np.zeros_like(up), np.ones_like(up)
     return np.stack([zero, up, up, down, down, one], axis=1), cruises

@@ -46,9 +46,7 @@ def tightened(program: Program, solution: Solution, deadline: float) -> Boxes:
                 return Boxes(durations, accelerations, False)
             cost = np.zeros(frame.size)
             cost[column] = sign
-            found = program.solve(
-                cost, rounds=_ROUNDS, tolerance=_TOLERANCE, deadline=deadline
-            )
+            found = program.solve(cost, rounds=_ROUNDS, tolerance=_TOLERANCE, deadline=deadline)
             if found.empty:
                 return Boxes(durations, accelerations, True)
             bound = sign * found.bound * unit
@@ -65,7 +63,7 @@ def _priced(program: Program, solution: Solution) -> list[tuple[int, int]]:
     found = set()
     for end, kind in enumerate((PRODUCT_AT_START, PRODUCT_AT_END)):
         carries = (cuts.kind == kind) & (y > 1e-9 * np.abs(y).max(initial=0.0))
-        found |= set(zip((cuts.segment[carries] + end).tolist(), cuts.joint[carries].tolist(), strict=True))
+        found |= set(
+            zip((cuts.segment[carries] + end).tolist(), cuts.joint[carries].tolist(), strict=True)
+        )
     return sorted(found)
-
-
