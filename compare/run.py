@@ -20,6 +20,7 @@ from compare.grade import Graded, Run, grade
 from compare.statistics import bound_of
 from compare.store import Store, key_of
 from formulations import FAMILIES, Problem, ladder
+from formulations.diagnosis import diagnose
 from formulations.ladder import versions
 from metaheuristics import algorithm
 
@@ -111,6 +112,8 @@ def _ladder(case: str, problem: Problem, certify: bool) -> tuple[str, dict[str, 
     found = climbed.to_json()
     found["alone"] = [None if one is None else one.seconds for one in climbed.alone]
     found["title"], found["family"] = problem.title, problem.family
+    if climbed.free_form is not None:
+        found["held_up_by"] = diagnose(problem, climbed.free_form).lines()
     return case, found
 
 

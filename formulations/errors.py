@@ -12,3 +12,7 @@ class InputError(ValueError):
 
 class UnsupportedProblem(InputError):  # noqa: N818  # a refusal, not a failure
     """The problem is legal, but this family or reference has no meaning for it."""
+
+
+class NoFeasibleMotion(RuntimeError):  # noqa: N818  # the answer, in a word
+    """No motion was found that keeps the position limits, or the conditions asked for."""

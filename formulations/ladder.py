@@ -10,16 +10,18 @@ from dataclasses import dataclass, field
 from functools import partial
 from typing import Any, Literal
 
-from formulations.errors import UnsupportedProblem
+import numpy as np
+
+from formulations.errors import NoFeasibleMotion, UnsupportedProblem
 from formulations.families import FAMILIES
 from formulations.family_bound import FamilyBound, family_bound
 from formulations.family_optimum import (
     FamilyOptimum,
-    NoFeasibleMotion,
     each_joint_alone,
     family_optimum,
     longest_segment,
 )
+from formulations.free_form import FreeForm, free_form
 from formulations.problem import Array, Problem
 from formulations.references import REFERENCES, Outcome, copp_on, toppra_on
 from formulations.trajectory import Trajectory, check
@@ -40,7 +42,6 @@ MEANINGS: dict[str, tuple[Kind, str]] = {
     "copp_family_path": ("reference", "jerk-limited optimum on the family optimum's path"),
 }
 
-_NOT_BUILT = "not part of this release"
 _GAP, _TIME_LIMIT = 1e-7, 20.0  # of the certified bound of the family; s
 
 
@@ -68,6 +69,7 @@ class Ladder:
     optimum: FamilyOptimum | None = field(repr=False)
     alone: tuple[FamilyOptimum | None, ...] = field(repr=False)
     bound: FamilyBound | None = field(default=None, repr=False)
+    free_form: FreeForm | None = field(default=None, repr=False)
 
     def seconds(self, key: str) -> float | None:
         """The number of a rung [s], None where there is none."""
@@ -99,34 +101,43 @@ def ladder(
     seed: int = 0,
     certify: bool = True,
     certificate: bool = False,
+    gap: float = 1e-3,
     progress: Callable[[str], None] | None = None,
 ) -> Ladder:
     """Climb every rung; a method that cannot be used or fails is a status with its reason.
 
-    certify: prove ``family_lower``. certificate: keep that proof in ``bound.certificate``.
+    certify: prove ``family_lower``. certificate: keep that proof in ``bound.certificate``. gap:
+    relative gap aimed at between ``free_form`` and ``free_form_lower``.
     """
-    climb = _Climb(problem, seed, certificate, progress or (lambda key: None))
+    climb = _Climb(problem, seed, certificate, gap, progress or (lambda key: None))
     return climb.run(certify)
 
 
 class _Climb:
     def __init__(
-        self, problem: Problem, seed: int, certificate: bool, progress: Callable[[str], None]
+        self,
+        problem: Problem,
+        seed: int,
+        certificate: bool,
+        gap: float,
+        progress: Callable[[str], None],
     ) -> None:
-        self.problem, self.seed, self.certificate, self.progress = problem, seed, certificate, progress
+        self.problem, self.seed, self.certificate, self.gap = problem, seed, certificate, gap
+        self.progress = progress
         self.rungs: dict[str, Rung] = {}
         self.durations: dict[str, Array] = {}
         self.trajectories: dict[str, Trajectory] = {}
         self.optimum: FamilyOptimum | None = None
         self.alone: tuple[FamilyOptimum | None, ...] = ()
         self.bound: FamilyBound | None = None
+        self.free_form: FreeForm | None = None
 
     def run(self, certify: bool) -> Ladder:
         for key in ("displacement", "ruckig_end_to_end", "ruckig_stop_and_go"):
             self._add(key, partial(REFERENCES[key], self.problem))
-        self._add("free_form_lower", self._best_lower)
-        self._add("free_form", lambda: Outcome.not_applicable(_NOT_BUILT))
         self._add("family", self._family)
+        self._add("free_form", self._free_form)
+        self._add("free_form_lower", self._best_lower)
         left_out = Outcome.not_applicable("not asked for")
         self._add("family_lower", self._family_lower if certify else lambda: left_out)
         self._add("family_longest_segment", self._longest_segment)
@@ -141,6 +152,7 @@ class _Climb:
             self.optimum,
             self.alone,
             self.bound,
+            self.free_form,
         )
 
     def _add(self, key: str, method: Callable[[], Outcome]) -> None:
@@ -174,6 +186,28 @@ class _Climb:
         if not self.problem.limits.has_acceleration and not self.problem.limits.has_jerk:
             note = "with a velocity limit alone the displacement bound is the infimum itself"
         return Outcome.ok(known[best] or 0.0, note=note)
+
+    def _free_form(self) -> Outcome:
+        if not self.problem.moving_joints:
+            return Outcome.ok(0.0, note="nothing moves")
+        found = free_form(self.problem, tolerance=self.gap)
+        self.free_form = found
+        note = "; ".join([found.method, *found.notes])
+        if found.status != "ok":
+            note += f"; {found.status}"
+        # splines and stops are motions too: whatever is faster is the fastest known
+        others = {key: self.rungs[key].seconds for key in ("family", "ruckig_stop_and_go")}
+        for key, seconds in others.items():
+            if seconds is not None and seconds < found.seconds and key in self.trajectories:
+                return Outcome.ok(
+                    seconds,
+                    durations=np.diff(self.trajectories[key].passage_times),
+                    trajectory=self.trajectories[key],
+                    note=f"that of {key}; the program's takes {found.seconds:.9g} s",
+                )
+        return Outcome.ok(
+            found.seconds, durations=found.durations, trajectory=found.trajectory, note=note
+        )
 
     def _family(self) -> Outcome:
         optimum = family_optimum(self.problem, seed=self.seed)

@@ -49,7 +49,7 @@ _ALONE = {TOTAL: "t", FIRST: "f", LAST: "l"}
 
 
 def certificate_of(problem: Problem, proof: Proof) -> dict[str, Any]:
-    """The certificate of a proof that was recorded and is proved."""
+    """The certificate of what a recorded proof has proved."""
     limits = problem.limits
     return {
         "format": FORMAT,
@@ -63,7 +63,7 @@ def certificate_of(problem: Problem, proof: Proof) -> dict[str, Any]:
             "position": _hex(limits.position),
         },
         "position_slack": problem.position_slack.hex(),
-        "seconds": proof.L.hex(),
+        "seconds": proof.seconds.hex(),
         "short": _short(problem, proof),
         "events": _events(problem, proof),
     }
@@ -105,6 +105,8 @@ def _short(problem: Problem, proof: Proof) -> Any:
 
 
 def _events(problem: Problem, proof: Proof) -> list[list[Any]]:
+    if proof.setup.anytime is not None:
+        return proof.setup.anytime.events
     log = proof.log()
     moving = problem.moving_joints
     events: list[list[Any]] = []

@@ -52,7 +52,14 @@ def shortest_segments(data: Data, L: float) -> Array:
     return shortest
 
 
-def begin(problem: Problem, L: float, *, narrow: float = NARROW, aside: bool = False) -> Setup:
+def begin(
+    problem: Problem,
+    L: float,
+    *,
+    near: Array | None = None,
+    narrow: float = NARROW,
+    aside: bool = False,
+) -> Setup:
     """Set up the attempt to prove that no 3-5-3 motion takes L or less."""
     data = data_of(problem)
     room = np.stack([data.room_above[1], data.room_below[1]])
