@@ -222,25 +222,28 @@ def convergence_figure(
         len(groups), len(codings), figsize=(10.5, 0.9 + 2.1 * len(groups)),
         sharex="col", sharey=True, squeeze=False,
     )  # fmt: skip
+    curves = {}
+    for coding in codings:
+        for swarm in swarms:
+            mine = [r for r in rows if r["swarm"] == swarm and r["coding"] == coding]
+            found = [traces[key_of(r)] for r in mine if key_of(r) in traces]
+            if found and optima[-1] is not None:
+                curves[coding, swarm] = convergence(found, optima, mine[0]["budget"])
     for panels, (group, members) in zip(grid, groups.items(), strict=True):
         for axes, coding in zip(panels, codings, strict=True):
-            for swarm in swarms:
-                mine = [r for r in rows if r["swarm"] == swarm and r["coding"] == coding]
-                found = [traces[key_of(r)] for r in mine if key_of(r) in traces]
-                if not found or optima[-1] is None:
+            for (where, swarm), (at, quartiles) in curves.items():
+                if where != coding:
                     continue
-                curve = convergence(found, optima, mine[0]["budget"])
                 if swarm in members:
-                    _converging(
-                        axes, *curve, SWARM_STYLE[members.index(swarm) % len(SWARM_STYLE)], swarm
-                    )
+                    style = SWARM_STYLE[members.index(swarm) % len(SWARM_STYLE)]
+                    _converging(axes, at, quartiles, style, swarm)
                 else:  # the others, to compare with
-                    middle = curve[1][1]
-                    shown = np.isfinite(middle)
-                    axes.plot(curve[0][shown], np.maximum(middle[shown], SMALLEST),
+                    shown = np.isfinite(quartiles[1])
+                    axes.plot(at[shown], np.maximum(quartiles[1][shown], SMALLEST),
                               color=GREY, lw=0.5, alpha=0.35)  # fmt: skip
             axes.set_xscale("log")
             axes.set_yscale("log")
+            axes.minorticks_off()  # as many as all the rest of the picture
             axes.grid(alpha=0.25, lw=0.5)
         panels[0].set_ylabel(f"{GROUPS[group]}\ngap of the best so far [1]", fontsize=8)
         handles, labels = panels[-1].get_legend_handles_labels()
