@@ -12,3 +12,11 @@ class InputError(ValueError):
 
 class UnsupportedProblem(InputError):  # noqa: N818  # a refusal, not a failure
     """The problem is legal, but this family or reference has no meaning for it."""
+
+
+class OutOfReach(InputError):  # noqa: N818  # a refusal, not a failure
+    """No joint positions within the limits reach a pose. distance: by how much it is missed [m]."""
+
+    def __init__(self, message: str, distance: float) -> None:
+        super().__init__(message)
+        self.distance = distance
