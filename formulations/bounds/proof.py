@@ -37,9 +37,17 @@ class Prover(Protocol):
     """A family's prover: everything for one attempt at the bound L [s]."""
 
     def __call__(
-        self, problem: Problem, L: float, *, narrow: float = NARROW, aside: bool = False
+        self,
+        problem: Problem,
+        L: float,
+        *,
+        narrow: float = NARROW,
+        aside: bool = False,
+        blur: Array | None = None,
     ) -> Setup:
-        """Set the search up. narrow, aside: see ``search``; a proof needs aside=False."""
+        """Set the search up. narrow, aside: see ``search``; a proof needs aside=False. blur: see
+        ``data_of``.
+        """
         ...
 
 
