@@ -9,12 +9,13 @@ from dataclasses import replace
 from functools import cache
 from pathlib import Path
 
+import jinja2
 import numpy as np
 import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
-from compare.audit import FAULTS, PAPERS, Finding, Paper, audit, load_papers, parse_papers
+from compare.audit import FAULTS, PAPERS, Finding, Paper, audit, chapter, load_papers, parse_papers
 from compare.audit.claims import claims_of
 from compare.audit.minima import impossible, minimum
 from compare.audit.motions import Motion
@@ -671,3 +672,17 @@ def test_results_under_common_limits_contradict_nothing() -> None:
     (paper,) = parse_papers(synthetic(), "p")
     motions = [Motion.of(paper, row) for row in paper.rows]
     assert table_findings(motions, paper.totals) == []
+
+
+def test_the_chapter_of_the_report_is_drawn_from_stored_json() -> None:
+    (paper,) = parse_papers(synthetic(SHARE="31.41"), "p")
+    stored = json.loads(json.dumps(audit(replace(paper, rows=paper.rows[:1], totals=())).to_json()))
+    (entry,) = chapter([stored])
+    assert [group["kind"] for group in entry["faults"]] == ["sum"]
+    assert entry["rows"][0]["cells"][0] == "Table 2, joint 1"
+    environment = jinja2.Environment(
+        loader=jinja2.PackageLoader("compare"), autoescape=True, undefined=jinja2.StrictUndefined
+    )
+    page = environment.get_template("audit.html.j2").render(audits=[entry])
+    assert "31.41 is printed" in page
+    assert page.count("<tr>") == 2

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from compare.audit.audit import Audit, audit
+from compare.audit.chapter import chapter
 from compare.audit.findings import FAULTS, NOTES, Finding
 from compare.audit.paper import Paper
 from compare.audit.paper_file import PAPERS, load_papers, parse_papers
@@ -15,6 +16,7 @@ __all__ = [
     "Finding",
     "Paper",
     "audit",
+    "chapter",
     "load_papers",
     "parse_papers",
 ]

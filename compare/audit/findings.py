@@ -26,7 +26,7 @@ NOTES: dict[str, str] = {
     "missing": "cannot be judged",
     "keeps": "keeps its limits",
     "rounding": "keeps its limits as far as the printed digits tell",
-    "slow": "beside the optimum of the limits it reaches itself",
+    "slow": "beside the best motion under the limits that it reaches itself",
     "offsets": "joint offsets are not printed",
 }
 

@@ -63,7 +63,7 @@ def _slow(motion: Motion) -> Finding:
     """No limits are stated: what the motion makes of those that it needs itself."""
     bound = motion.implied_optimum
     text = (
-        f"{motion.total:.4f} s is {number(motion.total / bound.upper)} times the optimum under the "
+        f"{motion.total:.4f} s is {number(motion.total / bound.upper)} times the best motion under the "
         f"limits that the motion itself needs ({bound.upper:.4f} s for "
         f"{limits_told(motion, motion.implied)})"
     )
