@@ -715,7 +715,7 @@ class Quintic:
             else [[((1 / (claim.L - total + x)).lower(), (1 / x).upper())] if x > 0 else one for x in t]
         )
         self.cells = [one, *domain, one]
-        self.triples: list[list[Quintic.Triple]] = [[(0, 0, 0)] for _ in range(self.n)]
+        self.triples: list[list[Any]] = [[(0, 0, 0)] for _ in range(self.n)]
         self.discards = 0
 
     def replay(self) -> int:

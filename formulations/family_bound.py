@@ -140,10 +140,10 @@ def family_bound(
     proof, certificate = pursuit.best, None
     seconds = max(simple, proof.seconds if proof else 0.0)
     if record:
-        better = proof is not None and proof.seconds >= simple
-        certificate = (
-            certificate_of_proof(problem, proof) if better else certificate_of(problem, simple)
-        )
+        if proof is not None and proof.seconds >= simple:
+            certificate = certificate_of_proof(problem, proof)
+        else:
+            certificate = certificate_of(problem, simple)
     return answer(seconds, pursuit.durations, pursuit.upper, pursuit.boxes, status, certificate)
 
 

@@ -74,7 +74,9 @@ def proved(problem: Problem, mu: Array, p: Array) -> float:
     b = down(1.0 - _shares(p, acceleration, n))
     cells = (len(p) - 1) // n
     even = times(steps, (down(1.0 / cells), up(1.0 / cells)))
-    turns = plus(_minus(p[1:], p[:-1]), tuple(np.repeat(end, cells, axis=0) for end in even))
+    turns = plus(
+        _minus(p[1:], p[:-1]), (np.repeat(even[0], cells, axis=0), np.repeat(even[1], cells, axis=0))
+    )
     held = up(up(np.maximum(-turns[0], turns[1])) * velocity)
     if not ((a >= 0.0).all() and (b >= 0.0).all()):
         return 0.0
