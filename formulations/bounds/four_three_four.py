@@ -41,6 +41,7 @@ def begin(
     problem: Problem,
     L: float,
     *,
+    near: Array | None = None,
     narrow: float = NARROW,
     aside: bool = False,
     blur: Array | None = None,

@@ -10,8 +10,10 @@ the degree open.
 
 from __future__ import annotations
 
+from functools import lru_cache
 from typing import Any
 
+import casadi
 import numpy as np
 from numpy.typing import NDArray
 
@@ -208,9 +210,10 @@ def _spans(durations: Array, degree: int) -> NDArray[np.int64]:
     return spans
 
 
-def _symbols(waypoints: Array, t: list[Any], near: Array, degree: int) -> tuple[list[Any], list[Any]]:
-    """Splines on symbols, for the pattern of knots that ``near`` has (see ``Family``)."""
-    n = len(t)
+@lru_cache(maxsize=64)
+def _shape(n: int, degree: int, pattern: tuple[int, ...]) -> casadi.Function:
+    """What all joints share, as a function of the durations: lengths, basis functions, collocation."""
+    t = casadi.SX.sym("t", n)
     n_spans = n + 5 - degree
     gaps, between = scratch(n + 1, n + 1), scratch(n_spans + 1, n_spans + 1)
     reach, h, functions = (
@@ -219,20 +222,45 @@ def _symbols(waypoints: Array, t: list[Any], near: Array, degree: int) -> tuple[
         scratch(n_spans, degree + 1, WIDTH),
     )
     values, matrix = scratch(max(n - 1, 1), degree + 1), scratch(max(n - 1, 1), n + 5)
-    spans = _spans(near, degree)
-    apart.py_func(t, gaps)
+    apart.py_func(casadi.vertsplit(t), gaps)
     knots.py_func(gaps, degree, reach, h)
     apart.py_func(h, between)
     basis.py_func(h, between, degree, functions, scratch(WIDTH))
     if n > 1:
-        collocation.py_func(reach, between, spans, degree, values, matrix)
+        collocation.py_func(reach, between, np.array(pattern), degree, values, matrix)
         eliminate.py_func(matrix)
+    parts = [casadi.vertcat(*part.ravel()) for part in (h, functions, values, matrix)]
+    return casadi.Function("shape", [t], parts)
+
+
+def _symbols(waypoints: Array, t: list[Any], near: Array, degree: int) -> tuple[list[Any], list[Any]]:
+    """Splines on symbols, for the pattern of knots that ``near`` has (see ``Family``)."""
+    n = len(t)
+    n_spans = n + 5 - degree
+    spans = _spans(near, degree)
+    shapes = (
+        (n_spans,),
+        (n_spans, degree + 1, WIDTH),
+        (max(n - 1, 1), degree + 1),
+        (max(n - 1, 1), n + 5),
+    )
+    h, functions, values, matrix = (
+        _cells(part, shape)
+        for part, shape in zip(_shape(n, degree, tuple(spans))(casadi.vertcat(*t)), shapes, strict=True)
+    )
     joints = []
     for x in waypoints.T.tolist():
         c = scratch(n_spans, WIDTH)
         joint.py_func(x, degree, functions, spans, values, matrix, scratch(n + 5), c)
         joints.append([list(row) for row in c])
     return list(h), joints
+
+
+def _cells(column: Any, shape: tuple[int, ...]) -> Any:
+    """A column of symbols as an array that Python's loops can run on."""
+    cells = scratch(column.numel())
+    cells[:] = casadi.vertsplit(column)
+    return cells.reshape(shape)
 
 
 def _family(degree: int) -> Family:
