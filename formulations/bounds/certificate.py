@@ -48,8 +48,13 @@ _LETTERS = {TURN: "T", EMPTY: "E", LEAF: "L", BELOW: "B", ABOVE: "A", SPLIT: "S"
 _ALONE = {TOTAL: "t", FIRST: "f", LAST: "l"}
 
 
-def certificate_of(problem: Problem, proof: Proof) -> dict[str, Any]:
-    """The certificate of what a recorded proof has proved."""
+def certificate_of(
+    problem: Problem,
+    seconds: float,
+    events: list[list[Any]] | None = None,
+    short: dict[str, Any] | None = None,
+) -> dict[str, Any]:
+    """The certificate of a bound [s]; without events, that of displacement over speed."""
     limits = problem.limits
     return {
         "format": FORMAT,
@@ -63,10 +68,15 @@ def certificate_of(problem: Problem, proof: Proof) -> dict[str, Any]:
             "position": _hex(limits.position),
         },
         "position_slack": problem.position_slack.hex(),
-        "seconds": proof.seconds.hex(),
-        "short": _short(problem, proof),
-        "events": _events(problem, proof),
+        "seconds": seconds.hex(),
+        "short": short,
+        "events": events or [],
     }
+
+
+def certificate_of_proof(problem: Problem, proof: Proof) -> dict[str, Any]:
+    """The certificate of what a recorded proof has proved."""
+    return certificate_of(problem, proof.seconds, _events(problem, proof), _short(problem, proof))
 
 
 def write_certificate(path: str | Path, certificate: dict[str, Any]) -> None:

@@ -55,7 +55,7 @@ def polynomial(coefficients: Array, s: Any) -> Interval:
     return value
 
 
-def least_sum(terms: Array, index: Array, size: int) -> Array:
+def least_sum(terms: Array, index: Any, size: int) -> Array:
     """Lower bounds of the sums of terms (m,) that share an index (m,): (size,)."""
     total, sizes = np.zeros(size), np.zeros(size)
     np.add.at(total, index, terms)

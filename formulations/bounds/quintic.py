@@ -50,9 +50,10 @@ def begin(
     near: Array | None = None,
     narrow: float = NARROW,
     aside: bool = False,
+    blur: Array | None = None,
 ) -> Setup:
     """Set up the attempt to prove that no quintic motion takes L or less."""
-    search = Search(problem, L, near, narrow)
+    search = Search(problem, L, near, narrow, blur)
 
     def advance(depth: int, max_boxes: int, counts: Any, log: Any) -> tuple[int, bool]:
         counts[BOXES] += search.chain.size
@@ -68,8 +69,10 @@ def begin(
 class Search:
     """One attempt: steps of discards and cuts until no path is left. reached: the bound until then."""
 
-    def __init__(self, problem: Problem, L: float, near: Array | None, narrow: float) -> None:
-        data = data_of(problem)
+    def __init__(
+        self, problem: Problem, L: float, near: Array | None, narrow: float, blur: Array | None
+    ) -> None:
+        data = data_of(problem, blur)
         self.n, self.L, self.narrow = len(data.d), L, narrow
         self.pieces, self._moving = Pieces(data), problem.moving_joints
         shortest = data.shortest(L)
@@ -160,7 +163,7 @@ class Search:
             least_share(a[k], b[k], c[k], self.chain.lo[k], self.chain.hi[k]) for k in range(self.n + 2)
         ]
         least, gone = self.chain.discard_sum(shares, float(const), _MARGIN * self.L)
-        event = ["L", [["t", (1.0).hex()], *self._plain(rows, weights)]]
+        event: list[Any] = ["L", [["t", (1.0).hex()], *self._plain(rows, weights)]]
         if gone:
             self._events.append(event)
         if min(self.L + least, self.L) > self.reached:
