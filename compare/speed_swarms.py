@@ -41,11 +41,11 @@ class Cost:
     objective: float
 
 
-def costs(problem: Problem, rounds: int) -> list[Cost]:
+def costs(problem: Problem, rounds: int, names: list[str] | None = None) -> list[Cost]:
     """The swarm's own work against its objective, in the stretched coding at population 50."""
     objective = Objective(problem, stretch=True)
     lo, hi = search_box(problem)
-    names = [name for name, entry in ALGORITHMS.items() if _there(entry.libraries)]
+    names = names or [name for name, entry in ALGORITHMS.items() if _there(entry.libraries)]
     best = dict.fromkeys(names, (np.inf, np.inf))
     for seed in range(rounds):
         for name in names:
