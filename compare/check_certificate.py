@@ -15,6 +15,7 @@ positive on all of a box (or of a slab of it) leave no motion there. Every box o
 from __future__ import annotations
 
 import argparse
+import itertools
 import json
 import sys
 from math import inf, isfinite
@@ -677,7 +678,7 @@ def least_on(a: Any, b: Any, c: Any, lo: Any, hi: Any) -> Any:
     pieces = 8 if c > 0 else 1
     ends = [1 / hi + (1 / lo - 1 / hi) * i / pieces for i in range(pieces + 1)]
     values = []
-    for p, q in zip(ends, ends[1:], strict=False):
+    for p, q in itertools.pairwise(ends):
         slope = (b - c * (p + q)).lower()
         at_p, at_q = a / p + slope * p, a / q + slope * q
         value = least(at_p, at_q)
@@ -708,7 +709,7 @@ class Quintic:
         self.void = total > claim.L
         one = [(R(1), R(1))]
         # a segment on which nothing moves may vanish, and no condition depends on it
-        self.counts = [False, *(not x == 0 for x in t), False]
+        self.counts = [False, *(x != 0 for x in t), False]
         domain = (
             []
             if self.void
@@ -745,7 +746,7 @@ class Quintic:
         _, _, j, k, sign, order, s = row
         d = [R(0), *(each[j] for each in self.claim.d), R(0)][k : k + 3]
         here, start, end = (sign * derivative(part, order, s) for part in self.PIECE)
-        before, after = (d[1] > 0 and x > 0 or d[1] < 0 and x < 0 for x in (d[0], d[2]))
+        before, after = ((d[1] > 0 and x > 0) or (d[1] < 0 and x < 0) for x in (d[0], d[2]))
         b, e = (start / 2 if before else R(0)), (end / 2 if after else R(0))
         own = d[1] * (here + b + e)
         if order == 0:
@@ -823,7 +824,7 @@ class Quintic:
         for lo, hi in self.cells[k]:
             inside = [lo, *(x for x in edges if lo < x < hi), hi]
             children.append(range(len(cells), len(cells) + len(inside) - 1))
-            cells += zip(inside, inside[1:], strict=False)
+            cells += itertools.pairwise(inside)
         self.cells[k] = cells
         for middle in range(max(k - 2, 0), min(k + 1, self.n)):
             place = k - middle
@@ -873,7 +874,7 @@ class EveryMotion:
                     if not (p[i] == 0 and p[i + 1] == 0):
                         w[k] += self.claim.limit(2, j) * (abs(p[i]) + abs(p[i + 1])) / (2 * cells)
                     turn = p[i + 1] - p[i] - (mu[k + 1] - mu[k]) / cells
-                    if not turn == 0:
+                    if turn != 0:
                         const += self.claim.limit(1, j) * abs(turn)
         need(all(x >= 0 for x in a), "a segment gains from taking no time")
         need(all(x <= 1 for x in w), "a segment gains from taking long")
