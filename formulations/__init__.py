@@ -2,16 +2,17 @@
 
 from __future__ import annotations
 
-from formulations.errors import InputError, UnsupportedProblem
+from formulations.conditions import Conditions
+from formulations.errors import InputError, NoFeasibleMotion, UnsupportedProblem
 from formulations.families import FAMILIES
 from formulations.family_bound import FamilyBound, family_bound
 from formulations.family_optimum import (
     FamilyOptimum,
-    NoFeasibleMotion,
     each_joint_alone,
     family_optimum,
     longest_segment,
 )
+from formulations.free_form import FreeForm, Sensitivity, free_form
 from formulations.ladder import Ladder, ladder
 from formulations.problem import Limits, Problem
 from formulations.problem_file import CASES, load, parse
@@ -22,13 +23,16 @@ __all__ = [
     "CASES",
     "FAMILIES",
     "REFERENCES",
+    "Conditions",
     "FamilyBound",
     "FamilyOptimum",
+    "FreeForm",
     "InputError",
     "Ladder",
     "Limits",
     "NoFeasibleMotion",
     "Problem",
+    "Sensitivity",
     "Trajectory",
     "UnsupportedProblem",
     "Verdict",
@@ -36,6 +40,7 @@ __all__ = [
     "each_joint_alone",
     "family_bound",
     "family_optimum",
+    "free_form",
     "ladder",
     "load",
     "longest_segment",

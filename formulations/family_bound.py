@@ -28,9 +28,9 @@ from formulations.bounds.certificate import certificate_of, certificate_of_proof
 from formulations.bounds.domain import data_of
 from formulations.bounds.every_motion import every_motion
 from formulations.bounds.proof import Proof, Prover
-from formulations.errors import InputError
+from formulations.errors import InputError, NoFeasibleMotion
 from formulations.families import FAMILIES
-from formulations.family_optimum import FamilyOptimum, NoFeasibleMotion, family_optimum, polished
+from formulations.family_optimum import FamilyOptimum, family_optimum, polished
 from formulations.problem import Array, Problem
 from formulations.trajectory import TOLERANCE, check
 
@@ -139,10 +139,11 @@ def family_bound(
     status = pursuit.run(gap, time_limit)
     proof, certificate = pursuit.best, None
     seconds = max(simple, proof.seconds if proof else 0.0)
-    if record and proof is not None and proof.seconds >= simple:
-        certificate = certificate_of_proof(problem, proof)
-    elif record:
-        certificate = certificate_of(problem, simple)
+    if record:
+        if proof is not None and proof.seconds >= simple:
+            certificate = certificate_of_proof(problem, proof)
+        else:
+            certificate = certificate_of(problem, simple)
     return answer(seconds, pursuit.durations, pursuit.upper, pursuit.boxes, status, certificate)
 
 

@@ -25,7 +25,7 @@ import casadi
 import numpy as np
 from numpy.typing import NDArray
 
-from formulations.errors import InputError
+from formulations.errors import InputError, NoFeasibleMotion
 from formulations.families import FAMILIES, Family
 from formulations.problem import Array, Problem
 from formulations.trajectory import Trajectory, Verdict, check
@@ -90,10 +90,6 @@ class FamilyOptimum:
     def agreeing_starts(self) -> int:
         """Number of starts that ended within 1e-7 of the best."""
         return sum(start.seconds <= self.seconds * (1.0 + 1e-7) for start in self.starts)
-
-
-class NoFeasibleMotion(RuntimeError):  # noqa: N818  # the answer, in a word
-    """No start of the solver ended in a motion that keeps the position limits."""
 
 
 def family_optimum(

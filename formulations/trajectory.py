@@ -13,6 +13,7 @@ import numpy as np
 from numpy.typing import ArrayLike
 from scipy.interpolate import PPoly
 
+from formulations.conditions import Conditions
 from formulations.errors import InputError
 from formulations.problem import Array, Problem
 
@@ -208,12 +209,20 @@ class Verdict:
         return all(p.factor <= 1.0 for p in self.peaks if p.quantity == "position")
 
 
-def check(problem: Problem, trajectory: Trajectory, *, through: bool = True) -> Verdict:
+def check(
+    problem: Problem,
+    trajectory: Trajectory,
+    *,
+    through: bool = True,
+    conditions: Conditions | None = None,
+) -> Verdict:
     """Judge a motion by its exact extremes: waypoints, continuity, rest, limits.
 
-    ``through=False`` asks only for the first and last waypoint (end-to-end references).
+    ``through=False`` asks only for the first and last waypoint (end-to-end references); conditions
+    say what else was asked for, and take waypoints and segments as ``through`` does.
     """
     faults: list[str] = []
+    asked = conditions or Conditions()
     if trajectory.dof != problem.dof:
         raise InputError(f"trajectory: {trajectory.dof} joints, the problem has {problem.dof}")
     limits = problem.limits
@@ -252,15 +261,29 @@ def check(problem: Problem, trajectory: Trajectory, *, through: bool = True) -> 
             joint = int(np.argmax(jump / allowed))
             faults.append(f"{QUANTITIES[order]} of joint {joint + 1} jumps by {jump[joint]:.3g}")
         if order > 0:
-            ends = np.abs(trajectory.at([0.0, trajectory.seconds], order)).max(axis=0)
+            given = asked.end_velocities(problem) * (order == 1)
+            ends = np.abs(trajectory.at([0.0, trajectory.seconds], order) - given).max(axis=0)
             if (ends > allowed).any():
                 joint = int(np.argmax(ends / allowed))
-                faults.append(
-                    f"{QUANTITIES[order]} of joint {joint + 1} is {ends[joint]:.3g} at an end"
-                )
+                off = f"off by {ends[joint]:.3g}" if given.any() else f"{ends[joint]:.3g}"
+                faults.append(f"{QUANTITIES[order]} of joint {joint + 1} is {off} at an end")
+            for stop in sorted(asked.stops if len(times) == len(targets) else ()):
+                moves = np.abs(trajectory.at(times[stop], order))
+                if (moves > allowed).any():
+                    joint = int(np.argmax(moves / allowed))
+                    faults.append(
+                        f"{QUANTITIES[order]} of joint {joint + 1} is {moves[joint]:.3g} at waypoint "
+                        f"{stop + 1}, a stop"
+                    )
+
+    for waypoint, time in asked.times(problem).items():
+        if len(times) == len(targets) and abs(times[waypoint] - time) > TOLERANCE * time:
+            faults.append(
+                f"passes waypoint {waypoint + 1} at {times[waypoint]:.9g} s, not {time:.9g} s"
+            )
 
     peaks = sorted(
-        _peaks(problem, trajectory),
+        _peaks(problem, trajectory, asked),
         key=lambda peak: peak.stretch if np.isfinite(peak.stretch) else peak.factor,
         reverse=True,
     )
@@ -275,43 +298,46 @@ def _size(trajectory: Trajectory, order: int) -> Array:
     return np.asarray(np.maximum(-extremes.low, extremes.high).max(axis=0))
 
 
-def _peaks(problem: Problem, trajectory: Trajectory) -> list[Peak]:
+def _peaks(problem: Problem, trajectory: Trajectory, asked: Conditions) -> list[Peak]:
     """The worst place of every limited quantity."""
     found = []
-    times = trajectory.passage_times
-    limits = problem.limits.derivatives
+    # each piece belongs to the segment that its middle lies in
+    middles = trajectory.breaks[:-1] + 0.5 * trajectory.durations
+    segments = np.searchsorted(trajectory.passage_times, middles) - 1
+    segments = np.clip(segments, 0, max(len(trajectory.passage_times) - 2, 0))
+    mine = np.minimum(segments, problem.n_segments - 1)  # a motion may have no inner waypoints
 
     def peak(order: int, piece: int, joint: int, high: bool, limit: float, factor: float) -> Peak:
         time = float((extremes.time_high if high else extremes.time_low)[piece, joint])
         value = float((extremes.high if high else extremes.low)[piece, joint])
-        middle = trajectory.breaks[piece] + 0.5 * trajectory.durations[piece]
-        segment = min(max(int(np.searchsorted(times, middle)) - 1, 0), max(len(times) - 2, 0))
         stretch = factor ** (1.0 / order) if order else np.inf
         name = QUANTITIES[order]
-        return Peak(name, joint, segment, time, value, limit, factor, stretch)
+        return Peak(name, joint, int(segments[piece]), time, value, limit, factor, stretch)
 
-    if problem.limits.has_position:
+    bounds = asked.position_bounds(problem)[mine]
+    if np.isfinite(bounds).any():
         extremes = trajectory.extremes(0)
-        low, high = problem.position_bounds.T
+        low, high = bounds[..., 0], bounds[..., 1]
         width = np.where(np.isfinite(high - low), high - low, 1.0)
         slack = problem.position_slack
         below, above = low - slack - extremes.low, extremes.high - high - slack
         for excess, is_high in ((below, False), (above, True)):
             piece, joint = divmod(int(excess.argmax()), problem.dof)
-            limit = float((high if is_high else low)[joint])
+            limit = float((high if is_high else low)[piece, joint])
             if np.isfinite(limit):
                 # strictly inside counts as exactly 1: a position is kept or not
-                factor = 1.0 + max(float(excess[piece, joint]), 0.0) / float(width[joint])
+                factor = 1.0 + max(float(excess[piece, joint]), 0.0) / float(width[piece, joint])
                 found.append(peak(0, piece, joint, is_high, limit, factor))
     for order in (1, 2, 3):
-        if not np.isfinite(limits[order - 1]).any():
+        limits = asked.derivatives(problem)[order - 1, mine]
+        if not np.isfinite(limits).any():
             continue
         extremes = trajectory.extremes(order)
-        upper, lower = extremes.high / limits[order - 1], -extremes.low / limits[order - 1]
+        upper, lower = extremes.high / limits, -extremes.low / limits
         ratio = np.maximum(upper, lower)
         piece, joint = divmod(int(ratio.argmax()), problem.dof)
         is_high = bool(upper[piece, joint] >= lower[piece, joint])
-        limit = float(limits[order - 1, joint])
+        limit = float(limits[piece, joint])
         found.append(peak(order, piece, joint, is_high, limit, float(ratio[piece, joint])))
     return found
 

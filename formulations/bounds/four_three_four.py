@@ -44,9 +44,10 @@ def begin(
     near: Array | None = None,
     narrow: float = NARROW,
     aside: bool = False,
+    blur: Array | None = None,
 ) -> Setup:
     """Set up the attempt to prove that no 4-3-...-3-4 motion takes L or less."""
-    data = data_of(problem)
+    data = data_of(problem, blur)
     n, dof = data.d.shape
     compiled_data = (
         data.d_lo, data.d_hi, data.derivatives, data.room_below, data.room_above, BASIS

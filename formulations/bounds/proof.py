@@ -61,9 +61,11 @@ class Prover(Protocol):
         near: Array | None = None,
         narrow: float = NARROW,
         aside: bool = False,
+        blur: Array | None = None,
     ) -> Setup:
         """Set the search up. near: the best durations known, (n_segments,) [s], a hint that no proof
         rests on. narrow, aside: see ``search``; a proof needs aside=False.
+        blur: see ``data_of``.
         """
         ...
 

@@ -50,9 +50,10 @@ def begin(
     near: Array | None = None,
     narrow: float = NARROW,
     aside: bool = False,
+    blur: Array | None = None,
 ) -> Setup:
     """Set up the attempt to prove that no quintic motion takes L or less."""
-    search = Search(problem, L, near, narrow)
+    search = Search(problem, L, near, narrow, blur)
 
     def advance(depth: int, max_boxes: int, counts: Any, log: Any) -> tuple[int, bool]:
         counts[BOXES] += search.chain.size
@@ -68,8 +69,10 @@ def begin(
 class Search:
     """One attempt: steps of discards and cuts until no path is left. reached: the bound until then."""
 
-    def __init__(self, problem: Problem, L: float, near: Array | None, narrow: float) -> None:
-        data = data_of(problem)
+    def __init__(
+        self, problem: Problem, L: float, near: Array | None, narrow: float, blur: Array | None
+    ) -> None:
+        data = data_of(problem, blur)
         self.n, self.L, self.narrow = len(data.d), L, narrow
         self.pieces, self._moving = Pieces(data), problem.moving_joints
         shortest = data.shortest(L)

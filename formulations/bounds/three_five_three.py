@@ -59,9 +59,10 @@ def begin(
     near: Array | None = None,
     narrow: float = NARROW,
     aside: bool = False,
+    blur: Array | None = None,
 ) -> Setup:
     """Set up the attempt to prove that no 3-5-3 motion takes L or less."""
-    data = data_of(problem)
+    data = data_of(problem, blur)
     room = np.stack([data.room_above[1], data.room_below[1]])
     limit = np.concatenate([room, data.derivatives])
     compiled_data = (data.d_lo, data.d_hi, limit, BASIS)

@@ -92,10 +92,19 @@ def _rest_to_rest(problem: Problem, start: Array, end: Array) -> tuple[Array, Ar
     task.max_acceleration = limits.acceleration.tolist()
     task.max_jerk = limits.jerk.tolist()
     answer = ruckig.Trajectory(problem.dof)
-    result = ruckig.Ruckig(problem.dof).calculate(task, answer)
+    try:
+        result = ruckig.Ruckig(problem.dof).calculate(task, answer)
+    except (ruckig.RuckigError, ValueError) as refusal:  # also a result that its enumeration lacks
+        return f"Ruckig: {first_line(refusal)}"
     if result not in (ruckig.Result.Working, ruckig.Result.Finished):
         return f"Ruckig returned {result.name}"
     return pieces_of(answer, start)
+
+
+def first_line(refusal: Exception) -> str:
+    """What Ruckig objects to, without the input it repeats."""
+    lines = [line.strip() for line in str(refusal).splitlines() if line.strip()]
+    return lines[0].removesuffix(" input:") if lines else type(refusal).__name__
 
 
 def pieces_of(answer: ruckig.Trajectory, start: Array) -> tuple[Array, Array]:
