@@ -33,8 +33,9 @@ FIGURES = {
 
 LIMITATIONS = [
     "Where the first table says proved, gaps are measured against a certified lower bound of the "
-    "family; where it says not proved, against the best of many local solves of the exact NLP. For "
-    "quintic splines and B-splines there is no certificate yet.",
+    "family; where it says not proved, against the best of many local solves of the exact NLP. Of "
+    "B-splines only what holds for every motion is proved: their equations tie each piece to every "
+    "duration, and enclosures of that are sharp only on boxes so narrow that there are too many.",
     "The papers print no search box (but 003) and no way to treat velocities at its walls: the box, "
     "the clamp and every other reading are stated in compare/objective.py and metaheuristics.",
     "The limits of bagging and cobot are assumed, as their files say: those papers print none.",

@@ -131,7 +131,8 @@ def family_bound(
     if chosen.name not in PROVERS:
         motions = every_motion(problem)
         events = motions.events(problem.moving_joints) if motions.seconds > simple else []
-        seconds, upper = max(simple, motions.seconds), float(found.sum())
+        upper, found = _feasible(problem, found)
+        seconds = max(simple, motions.seconds)
         status = "proved" if upper <= seconds * (1.0 + gap) else f"undecided: {_EVERY_MOTION}"
         certificate = certificate_of(problem, seconds, events) if record else None
         return answer(seconds, found, upper, 0, status, certificate)
@@ -171,6 +172,16 @@ def displacement_bound(problem: Problem) -> float:
     return float((data.least / data.derivatives[0]).max(axis=1).sum() * (1.0 - 1e-13))
 
 
+def _feasible(problem: Problem, durations: Array) -> tuple[float, Array]:
+    """Total [s] and durations, stretched to feasibility; infinite if they do not pass the check."""
+    family = FAMILIES[problem.family]
+    stretched = durations * check(problem, family.trajectory(problem, durations)).stretch
+    if not (np.isfinite(stretched).all() and (stretched > 0.0).all()):
+        return np.inf, durations
+    verdict = check(problem, family.trajectory(problem, stretched))
+    return (verdict.seconds, stretched) if verdict.feasible else (np.inf, durations)
+
+
 def _refusal(problem: Problem) -> str:
     """Why no bound beyond the displacements can be proved; empty if one can."""
     data = data_of(problem)
@@ -195,7 +206,6 @@ class _Pursuit:
         progress: Callable[[float, int], None] | None,
     ) -> None:
         self.problem, self.begin, self.record, self.progress = problem, begin, record, progress
-        self.family = FAMILIES[problem.family]
         self.simple = displacement_bound(problem)
         self.boxes, self.restarts = 0, 0
         self.best: Proof | None = None
@@ -288,10 +298,6 @@ class _Pursuit:
 
     def _adopt(self, durations: Array) -> None:
         """Keep durations, stretched to feasibility, if they beat the best and pass the check."""
-        factor = check(self.problem, self.family.trajectory(self.problem, durations)).stretch
-        stretched = durations * factor
-        if not (np.isfinite(stretched).all() and (stretched > 0.0).all()):
-            return
-        verdict = check(self.problem, self.family.trajectory(self.problem, stretched))
-        if verdict.feasible and verdict.seconds < self.upper:
-            self.upper, self.durations = verdict.seconds, stretched
+        seconds, stretched = _feasible(self.problem, durations)
+        if seconds < self.upper:
+            self.upper, self.durations = seconds, stretched
