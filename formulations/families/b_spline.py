@@ -210,10 +210,9 @@ def _spans(durations: Array, degree: int) -> NDArray[np.int64]:
     return spans
 
 
-@lru_cache(maxsize=64)
-def _shape(n: int, degree: int, pattern: tuple[int, ...]) -> casadi.Function:
-    """What all joints share, as a function of the durations: lengths, basis functions, collocation."""
-    t = casadi.SX.sym("t", n)
+def _shared(t: list[Any], degree: int, spans: Any) -> tuple[Any, Any, Any, Any]:
+    """What all joints share, of symbols t: lengths, basis functions, collocation values and matrix."""
+    n = len(t)
     n_spans = n + 5 - degree
     gaps, between = scratch(n + 1, n + 1), scratch(n_spans + 1, n_spans + 1)
     reach, h, functions = (
@@ -222,15 +221,22 @@ def _shape(n: int, degree: int, pattern: tuple[int, ...]) -> casadi.Function:
         scratch(n_spans, degree + 1, WIDTH),
     )
     values, matrix = scratch(max(n - 1, 1), degree + 1), scratch(max(n - 1, 1), n + 5)
-    apart.py_func(casadi.vertsplit(t), gaps)
+    apart.py_func(t, gaps)
     knots.py_func(gaps, degree, reach, h)
     apart.py_func(h, between)
     basis.py_func(h, between, degree, functions, scratch(WIDTH))
     if n > 1:
-        collocation.py_func(reach, between, np.array(pattern), degree, values, matrix)
+        collocation.py_func(reach, between, spans, degree, values, matrix)
         eliminate.py_func(matrix)
-    parts = [casadi.vertcat(*part.ravel()) for part in (h, functions, values, matrix)]
-    return casadi.Function("shape", [t], parts)
+    return h, functions, values, matrix
+
+
+@lru_cache(maxsize=64)
+def _shape(n: int, degree: int, pattern: tuple[int, ...]) -> casadi.Function:
+    """The same as a CasADi function of the durations, built once."""
+    t = casadi.SX.sym("t", n)
+    parts = _shared(casadi.vertsplit(t), degree, np.array(pattern))
+    return casadi.Function("shape", [t], [casadi.vertcat(*part.ravel()) for part in parts])
 
 
 def _symbols(waypoints: Array, t: list[Any], near: Array, degree: int) -> tuple[list[Any], list[Any]]:
@@ -238,16 +244,18 @@ def _symbols(waypoints: Array, t: list[Any], near: Array, degree: int) -> tuple[
     n = len(t)
     n_spans = n + 5 - degree
     spans = _spans(near, degree)
-    shapes = (
-        (n_spans,),
-        (n_spans, degree + 1, WIDTH),
-        (max(n - 1, 1), degree + 1),
-        (max(n - 1, 1), n + 5),
-    )
-    h, functions, values, matrix = (
-        _cells(part, shape)
-        for part, shape in zip(_shape(n, degree, tuple(spans))(casadi.vertcat(*t)), shapes, strict=True)
-    )
+    if isinstance(t[0], casadi.SX):
+        shapes = (
+            (n_spans,),
+            (n_spans, degree + 1, WIDTH),
+            (max(n - 1, 1), degree + 1),
+            (max(n - 1, 1), n + 5),
+        )
+        columns = _shape(n, degree, tuple(spans))(casadi.vertcat(*t))
+        parts = [_cells(part, shape) for part, shape in zip(columns, shapes, strict=True)]
+    else:
+        parts = list(_shared(t, degree, spans))
+    h, functions, values, matrix = parts
     joints = []
     for x in waypoints.T.tolist():
         c = scratch(n_spans, WIDTH)
