@@ -235,7 +235,7 @@ def test_the_bound_of_every_motion_is_nearly_that_of_one_segment() -> None:
         d, v, a = 10.0 ** rng.uniform(-3, 3), 10.0 ** rng.uniform(-2, 2), 10.0 ** rng.uniform(-2, 2)
         problem = Problem.of([[0.0], [d]], Limits.of(v, a, dof=1))
         fastest = d / v + v / a if d * a > v * v else 2.0 * np.sqrt(d / a)
-        assert fastest * 0.98 < every_motion(problem, 16).seconds < fastest
+        assert fastest * 0.95 < every_motion(problem, 16).seconds < fastest
 
 
 def test_with_velocities_alone_every_motion_is_bounded_by_displacement() -> None:
