@@ -7,7 +7,7 @@ of such numbers. The claim: no durations make a spline of the family through the
 the limits (positions to within position_slack) and takes ``seconds`` or less. As stretching keeps
 limits, it is enough that none takes exactly L = seconds.
 
-The domain of a search tree is derived here from problem and L. Its events are replayed in depth-first
+The domain of a search is derived here from problem and L. Its events are replayed in depth-first
 order, every discard is verified: multipliers >= 0 of necessary conditions g <= 0 whose weighted sum is
 positive on all of a box (or of a slab of it) leave no motion there. Every box of the tree must end so.
 """
@@ -15,6 +15,7 @@ positive on all of a box (or of a slab of it) leave no motion there. Every box o
 from __future__ import annotations
 
 import argparse
+import itertools
 import json
 import sys
 from math import inf, isfinite
@@ -24,6 +25,7 @@ from typing import Any
 CERTIFIED, REFUSED, BAD_INPUT = 0, 1, 2
 FORMAT = "timebound certificate 1"
 LARGEST_FILE, MOST_EVENTS, MOST_SEGMENTS, MOST_JOINTS = 400_000_000, 3_000_000, 50, 50
+MOST_ROWS, MOST_CUTS, MOST_TRIPLES = 20_000, 1_000_000, 5_000_000
 BITS = 128
 
 R: Any = None  # flint's arb, once it is known to be there
@@ -174,8 +176,7 @@ class Claim:
         self.slack, self.L = number(data.get("position_slack")), number(data.get("seconds"))
         need(self.slack >= 0, "position_slack is negative")
         need(self.L > 0, "the bound is not positive")
-        unlogged = data.get("unlogged")
-        need(unlogged == "", f"the certificate is incomplete: {unlogged!r:.200}")
+        self.short = data.get("short")
         self.events = items(data.get("events"), 0, MOST_EVENTS)
         self.d = [
             [b - a for a, b in zip(*pair, strict=True)]
@@ -341,12 +342,10 @@ class ThreeFiveThree(Tree):
         need(claim.n == 3, "3-5-3 has three segments")
         t = claim.shortest()
         self.has = [not all(x == 0 for x in claim.d[k]) for k in (0, 2)]
-        need(
-            t[1] > 0,
-            "nothing moves on the middle segment, and the certificate does not say what follows",
-        )
         self.t = t = [self.end(0), t[1], self.end(2)]
         self.void = sum(t, R(0)) > claim.L
+        if not self.void and all(x == 0 for x in claim.d[1]):
+            t[1] = self.no_short_middle()
         box = []
         for x in range(2):
             end, other = t[2 * x], t[2 - 2 * x]
@@ -357,6 +356,54 @@ class ThreeFiveThree(Tree):
             )
             box.append([ends[0].lower(), ends[1].upper()])
         self.root = Node(box)
+
+    def no_short_middle(self) -> Any:
+        """Verify that T2 <= tau is impossible where nothing moves on the middle segment; tau.
+
+        Derivative k >= 1 of the middle piece times T2^(k-1) is d1/T1 (B + C r) + d3/T3 (E + F q), r in
+        [0, tau/T1], q in [0, tau/T3], against at most limit tau^(k-1). An end on which nothing moves
+        is left out, the rest stretched to L: T1 = 0 if it is the first, T1 in [L - tau, L] if the last.
+        """
+        claim, d = self.claim, self.claim.d
+        if not isinstance(claim.short, dict):
+            raise BadInput("nothing moves on the middle segment, and short does not say what follows")
+        tau = number(claim.short.get("tau"))
+        need(tau > 0, "tau is not positive")
+        first, last = self.has
+        least_end = (self.t[0] if last else claim.L - tau) if first else R(0)
+        reached = R(0) if not first else claim.L - self.t[2] if last else claim.L
+        for raw in items(claim.short.get("discards"), 1, MOST_EVENTS):
+            raw = items(raw, 3, 7)
+            lo, hi = most(number(raw[1]), R(0)), number(raw[2])
+            need(lo <= hi and not hi < reached, "short: the intervals of T1 leave a gap")
+            reached = lo
+            latest = claim.L - lo
+            earliest = most(self.t[2], claim.L - tau - hi) if last else R(0)
+            if raw[0] == "l" and len(raw) == 3:
+                need(latest < self.t[2], "short: the last segment is long enough")
+                continue
+            if raw[0] != "p" or len(raw) != 7:
+                raise BadInput(f"unknown discard {raw!r:.60}")
+            j, order, s = index(raw[3], claim.dof), index(raw[4], 4), number(raw[5])
+            sign = raw[6]
+            if type(sign) is not int or sign not in (-1, 1):
+                raise BadInput(f"a sign is {sign!r:.40}")
+            need(order >= 1 and 0 <= s <= 1, "short: a row is posed outside its piece")
+            value = (R(0), R(0))
+            p = [sign * derivative(c, order, s) for c in self.MIDDLE]
+            for moves, k, ends in ((first, 0, (lo, hi)), (last, 2, (earliest, latest))):
+                if not moves or d[k][j] == 0:
+                    continue
+                need(ends[0] > 0, "short: an end may take no time")
+                rate = (1 / ends[1], 1 / ends[0])
+                inner = plus((p[1 + k], p[1 + k]), product((p[2 + k], p[2 + k]), (R(0), tau * rate[1])))
+                value = plus(value, product(times(d[k][j], inner), rate))
+            need(
+                value[0] > claim.limit(order, j) * tau ** (order - 1),
+                "short: an interval is not discarded",
+            )
+        need(not reached > least_end, "short: the intervals of T1 leave a gap")
+        return tau
 
     def end(self, k: int) -> Any:
         """A lower bound of a cube's duration: T^i limit_i >= 3|d|, 6|d|, 6|d| for i = 1, 2, 3."""
@@ -618,6 +665,224 @@ class FourThreeFour(Tree):
         return const, interval, kappa, nu, w
 
 
+# ---------------------------------------------------------------- the chain
+
+
+def least_on(a: Any, b: Any, c: Any, lo: Any, hi: Any) -> Any:
+    """Lower bound of a x + b / x - c / x^2 over x in [lo, hi] > 0, c >= 0.
+
+    With u = 1/x in [p, q]: u^2 <= (p + q) u - p q. What is left, a / u + b' u, is concave or monotone
+    in u, and least at an end, unless a, b' > 0; then it is convex, and nowhere below 2 sqrt(a b').
+    """
+    a, b, c = a.lower(), b.lower(), c.upper()
+    pieces = 8 if c > 0 else 1
+    ends = [1 / hi + (1 / lo - 1 / hi) * i / pieces for i in range(pieces + 1)]
+    values = []
+    for p, q in itertools.pairwise(ends):
+        slope = (b - c * (p + q)).lower()
+        at_p, at_q = a / p + slope * p, a / q + slope * q
+        value = least(at_p, at_q)
+        if a > 0 and slope > 0:
+            rising, falling = slope * p * p >= a, slope * q * q <= a
+            value = at_p if rising else at_q if falling else 2 * (a * slope).sqrt()
+        values.append(value + c * p * q)
+    return least(*values).lower()
+
+
+class Quintic:
+    """Variables x_k = 1/T_k; each condition ties x_k to its two neighbours alone.
+
+    The domains are cut into cells. A triple of cells of neighbouring variables stands for all paths
+    through it, a cell of each variable; a motion lies on a path. A triple is discarded if a condition is
+    violated on all of it, or if on every path through it a weighted sum of conditions is positive. The
+    proof holds if some variable has no triple left. Events: C cuts the cells of a segment, R gives rows
+    that are tried one by one, L rows of a sum.
+    """
+
+    PIECE = ([0, 0, 0, 10, -15, 6], [0, 1, 0, -6, 8, -3], [0, 0, 0, -4, 7, -3])
+    Triple = tuple[int, int, int]
+
+    def __init__(self, claim: Claim) -> None:
+        self.claim, self.n = claim, claim.n
+        t = claim.shortest()
+        total = sum(t, R(0))
+        self.void = total > claim.L
+        one = [(R(1), R(1))]
+        # a segment on which nothing moves may vanish, and no condition depends on it
+        self.counts = [False, *(x != 0 for x in t), False]
+        domain = (
+            []
+            if self.void
+            else [[((1 / (claim.L - total + x)).lower(), (1 / x).upper())] if x > 0 else one for x in t]
+        )
+        self.cells = [one, *domain, one]
+        self.triples: list[list[Any]] = [[(0, 0, 0)] for _ in range(self.n)]
+        self.discards = 0
+
+    def replay(self) -> int:
+        """Verify every event; returns the number of discards."""
+        for count, raw in enumerate(self.claim.events, 1):
+            event = items(raw, 2, 3)
+            if event[0] == "C" and len(event) == 3:
+                self.cut(
+                    index(event[1], self.n) + 1, [number(x) for x in items(event[2], 0, MOST_CUTS)]
+                )
+            elif event[0] in ("R", "L") and len(event) == 2:
+                rows = [self.claim.row(row) for row in items(event[1], 0, MOST_ROWS)]
+                if event[0] == "R":
+                    for row in rows:
+                        self.discard_row(row)
+                else:
+                    self.discard_sum(rows)
+            else:
+                raise BadInput(f"event {count}: unknown event {raw!r:.20}")
+            need(sum(map(len, self.triples)) <= MOST_TRIPLES, f"event {count}: too many cells")
+        need(not all(self.triples), "the events end before every path has ended")
+        return self.discards
+
+    def condition(self, row: Any) -> tuple[Any, ...]:
+        """Segment, coefficients of x_{k-1}, x_k, x_{k+1}, limit, and the power of x_k it stands over."""
+        need(row[0] == "p", "a row this family does not have")
+        _, _, j, k, sign, order, s = row
+        d = [R(0), *(each[j] for each in self.claim.d), R(0)][k : k + 3]
+        here, start, end = (sign * derivative(part, order, s) for part in self.PIECE)
+        before, after = ((d[1] > 0 and x > 0) or (d[1] < 0 and x < 0) for x in (d[0], d[2]))
+        b, e = (start / 2 if before else R(0)), (end / 2 if after else R(0))
+        own = d[1] * (here + b + e)
+        if order == 0:
+            return k, d[0] * b, own - self.claim.room(k, j, sign), d[2] * e, R(0), 0
+        return k, d[0] * b, own, d[2] * e, self.claim.limit(order, j), order - 1
+
+    def discard_row(self, row: Any) -> None:
+        """Discard the triples on which one condition is violated.
+
+        Linear shares, and A x - limit / x^p, which grows with x if A >= 0 and is concave if not.
+        """
+        k, b, a, e, limit, power = self.condition(row)
+        b, a, e = b.lower(), a.lower(), e.lower()
+        shares = [
+            [least(*(part * x for x in ends)).lower() for ends in self.cells[k + shift]]
+            for shift, part in ((0, b), (2, e))
+        ]
+        own = [least(*(a * x - limit / x**power for x in ends)).lower() for ends in self.cells[k + 1]]
+        stay = [t for t in self.triples[k] if not shares[0][t[0]] + own[t[1]] + shares[1][t[2]] > 0]
+        self.discards += len(self.triples[k]) - len(stay)
+        self.triples[k] = stay
+
+    def discard_sum(self, rows: Any) -> None:
+        """Discard the triples through which the weighted sum is positive on every path."""
+        n = self.n
+        const, nu = R(0), R(0)
+        a, held = [R(0)] * (n + 2), [[R(0)] * (n + 2) for _ in range(3)]
+        for row in rows:
+            m = row[1]
+            if row[0] == "t":
+                const, nu = const - m * self.claim.L, nu + m
+                continue
+            k, *parts, limit, power = self.condition(row)
+            for shift, part in enumerate(parts):
+                a[k + shift] += m * part
+            held[power][k + 1] += m * limit
+        const -= sum(held[0], R(0))
+        phi = [
+            [
+                least_on(a[k], (nu if self.counts[k] else R(0)) - held[1][k], held[2][k], *ends)
+                for ends in cells
+            ]
+            for k, cells in enumerate(self.cells)
+        ]
+        ahead: list[dict[tuple[int, int], Any]] = [
+            {(0, y): const + phi[0][0] + x for y, x in enumerate(phi[1])}
+        ]
+        for k, triples in enumerate(self.triples):
+            least_sum: dict[tuple[int, int], Any] = {}
+            for x, y, z in triples:
+                if (x, y) in ahead[k]:
+                    value = ahead[k][x, y] + phi[k + 2][z]
+                    least_sum[y, z] = value.min(least_sum.get((y, z), value))
+            ahead.append(least_sum)
+        behind = {(y, 0): R(0) for y in range(len(phi[n]))}
+        for k in range(n - 1, -1, -1):
+            least_rest: dict[tuple[int, int], Any] = {}
+            stay = []
+            for x, y, z in self.triples[k]:
+                if (x, y) in ahead[k] and (y, z) in behind:
+                    value = behind[y, z] + phi[k + 2][z]
+                    least_rest[x, y] = value.min(least_rest.get((x, y), value))
+                    if not ahead[k][x, y] + value > 0:
+                        stay.append((x, y, z))
+            behind = least_rest
+            self.discards += len(self.triples[k]) - len(stay)
+            self.triples[k] = stay
+
+    def cut(self, k: int, edges: list[Any]) -> None:
+        """Cut the cells of padded variable k at the edges inside them."""
+        need(self.counts[k], "a cut of a segment on which nothing moves")
+        edges.sort(key=float)
+        cells: list[Any] = []
+        children: list[range] = []
+        for lo, hi in self.cells[k]:
+            inside = [lo, *(x for x in edges if lo < x < hi), hi]
+            children.append(range(len(cells), len(cells) + len(inside) - 1))
+            cells += itertools.pairwise(inside)
+        self.cells[k] = cells
+        for middle in range(max(k - 2, 0), min(k + 1, self.n)):
+            place = k - middle
+            need(
+                sum(len(children[t[place]]) for t in self.triples[middle]) <= MOST_TRIPLES,
+                "too many cells",
+            )
+            self.triples[middle] = [
+                (*t[:place], child, *t[place + 1 :])
+                for t in self.triples[middle]
+                for child in children[t[place]]
+            ]
+
+
+class EveryMotion:
+    """What holds for every motion from rest to rest, whatever its family.
+
+    For m linear on each segment, mu_0 .. mu_n at the waypoints, and p linear on N cells of each,
+    sum (mu_{k-1} - mu_k) d_k / T_k = int m q'' = int p q'' + int (p - m)' q'
+                                    <= A sum T_k mean |p| + V sum |steps of p - m|.
+    Summed over the joints, a_k / T_k <= w_k T_k + const; so the total time is no less than
+    sum T_k + a_k / T_k - w_k T_k - const >= sum 2 sqrt(a_k (1 - w_k)) - const. An event per joint.
+    """
+
+    def __init__(self, claim: Claim) -> None:
+        self.claim = claim
+        self.void = sum(claim.shortest(), R(0)) > claim.L
+
+    def replay(self) -> int:
+        """Verify the sum; returns the number of joints in it."""
+        n, joints = self.claim.n, set()
+        a, w, const = [R(0)] * n, [R(0)] * n, R(0)
+        for raw in self.claim.events:
+            letter, joint, mu, p = items(raw, 4, 4)
+            if letter != "M":
+                raise BadInput(f"unknown event {letter!r:.20}")
+            j = index(joint, self.claim.dof)
+            need(j not in joints, f"joint {j + 1} counts twice")
+            joints.add(j)
+            mu = [number(x) for x in items(mu, n + 1, n + 1)]
+            p = [number(x) for x in items(p, n + 1, MOST_CUTS)]
+            cells = (len(p) - 1) // n
+            need(len(p) == cells * n + 1, "the cells of a segment are not equal in number")
+            for k in range(n):
+                a[k] += (mu[k] - mu[k + 1]) * self.claim.d[k][j]
+                for i in range(k * cells, (k + 1) * cells):
+                    if not (p[i] == 0 and p[i + 1] == 0):
+                        w[k] += self.claim.limit(2, j) * (abs(p[i]) + abs(p[i + 1])) / (2 * cells)
+                    turn = p[i + 1] - p[i] - (mu[k + 1] - mu[k]) / cells
+                    if turn != 0:
+                        const += self.claim.limit(1, j) * abs(turn)
+        need(all(x >= 0 for x in a), "a segment gains from taking no time")
+        need(all(x <= 1 for x in w), "a segment gains from taking long")
+        total = sum((2 * (x * (1 - y)).sqrt() for x, y in zip(a, w, strict=True)), R(0)) - const
+        need(total > self.claim.L, "the sum is not above the bound")
+        return len(joints)
+
+
 # ---------------------------------------------------------------- the command
 
 
@@ -635,7 +900,13 @@ def inverse_of(rows: list[list[Any]]) -> list[list[Any]]:
 def verify(data: Any) -> str:
     """What a certificate proves, in words. Raises Refused or BadInput."""
     claim = Claim(data)
-    trees: dict[str, Any] = {"3-5-3": ThreeFiveThree, "4-3-4": FourThreeFour}
+    trees: dict[str, Any] = {
+        "3-5-3": ThreeFiveThree,
+        "4-3-4": FourThreeFour,
+        "quintic": Quintic,
+        "b-spline-3": EveryMotion,
+        "b-spline-5": EveryMotion,
+    }
     if claim.family not in trees:
         raise BadInput(f"family: {claim.family:.40} is not one of {', '.join(trees)}")
     tree = trees[claim.family](claim)

@@ -11,6 +11,7 @@ from pathlib import Path
 from typing import Any
 
 from formulations import InputError
+from metaheuristics import ALGORITHMS, MissingLibraryError, UnknownAlgorithmError, algorithm
 
 DONE, FAILED, BAD_INPUT = 0, 1, 2
 
@@ -57,6 +58,24 @@ def chosen(kind: str, names: str | None, known: Iterable[str]) -> list[str]:
     if not wanted:
         raise InputError(f"{kind}: none given (known: {', '.join(known)})")
     return list(dict.fromkeys(wanted))
+
+
+def swarms(kind: str, names: str | None, standard: list[str]) -> list[str]:
+    """A comma-separated choice of algorithms, each one found; the standard ones if left out.
+
+    Raises InputError that says why there is none of a name, or how to install its library.
+    """
+    if names is None:
+        return standard
+    wanted = list(dict.fromkeys(name.strip() for name in names.split(",") if name.strip()))
+    if not wanted:
+        raise InputError(f"{kind}: none given (known: {', '.join(ALGORITHMS)})")
+    for name in wanted:
+        try:
+            algorithm(name)
+        except (UnknownAlgorithmError, MissingLibraryError) as error:
+            raise InputError(f"{kind}: {error}") from error
+    return wanted
 
 
 def positive(kind: str, value: int) -> int:

@@ -31,15 +31,16 @@ from compare.style import (
 )
 from formulations import FAMILIES, Problem, Trajectory, check
 from formulations.problem import Array
+from metaheuristics import ALGORITHMS, GROUPS
 
 CODING_STYLE: dict[Any, Any] = {
     "published": (VERMILION, "s"),
     "shared": (SKY, "o"),
     "stretched": (BLUE, "D"),
 }
-SWARM_STYLE = [
-    (GREY, "-"), (BLACK, "-"), (BLACK, "--"), (BLACK, ":"), (BLUE, "-"),
-    (SKY, "-"), (SKY, "--"), (SKY, ":"), (PURPLE, "-"), (ORANGE, "-"),
+SWARM_STYLE = [  # within one group of swarms
+    (BLUE, "-"), (VERMILION, "-"), (GREEN, "-"), (BLACK, "-"), (ORANGE, "-"),
+    (PURPLE, "-"), (SKY, "-"), (BLUE, "--"), (VERMILION, "--"), (BLACK, "--"),
 ]  # fmt: skip
 KIND_STYLE: dict[Any, Any] = {"lower": (BLUE, ">"), "upper": (GREEN, "o"), "reference": (PURPLE, "D")}
 SMALLEST = 1e-12  # gaps below are drawn here: rounding
@@ -158,7 +159,7 @@ def gap_figure(problem: Problem, rows: list[dict[str, Any]]) -> Figure:
     """Gap of every seed of every swarm in every coding; hollow: the claimed motion breaks limits."""
     swarms = list(dict.fromkeys(row["swarm"] for row in rows))
     codings = list(dict.fromkeys(row["coding"] for row in rows))
-    figure, axes = plt.subplots(figsize=(9.0, 1.2 + 0.42 * len(swarms)))
+    figure, axes = plt.subplots(figsize=(9.0, 1.2 + 0.34 * len(swarms)))
     for row_index, swarm in enumerate(swarms):
         if row_index % 2:
             axes.axhspan(row_index - 0.5, row_index + 0.5, color="#000000", alpha=0.035, lw=0)
@@ -191,7 +192,13 @@ def gap_figure(problem: Problem, rows: list[dict[str, Any]]) -> Figure:
     axes.set_xticks(ticks, ["rounding", *(f"{100 * t:.4g} %" for t in ticks[1:])])
     axes.set_xlabel("gap of the verified motion to the family's optimum [%], every seed a mark")
     axes.set_title(f"{problem.name}: how far each swarm is from the best in its family", loc="left")
-    axes.legend(ncols=5, fontsize=7.5, loc="upper center", bbox_to_anchor=(0.5, -0.16), frameon=False)
+    axes.legend(
+        ncols=5,
+        fontsize=7.5,
+        loc="upper center",
+        bbox_to_anchor=(0.5, -0.5 / (1.0 + 0.34 * len(swarms))),
+        frameon=False,
+    )
     return figure
 
 
@@ -202,41 +209,68 @@ def convergence_figure(
     rows: list[dict[str, Any]],
     traces: dict[tuple[Any, ...], list[Trace]],
 ) -> Figure:
-    """Median gap of each swarm against evaluations, one panel per coding."""
+    """Median gap of each swarm against evaluations: a row per group of swarms, a column per coding."""
     swarms = list(dict.fromkeys(row["swarm"] for row in rows))
     codings = list(dict.fromkeys(row["coding"] for row in rows))
+    groups: dict[str, list[str]] = {}
+    for swarm in swarms:
+        group = ALGORITHMS[swarm].group if swarm in ALGORITHMS else "rivals"
+        groups.setdefault(group, []).append(swarm)
     optima = {-1: ladder["ladder"]["family"]["seconds"]}
     optima |= {j: s for j, s in enumerate(ladder["alone"]) if s is not None}
-    figure, panels = plt.subplots(1, len(codings), figsize=(10.5, 3.9), sharey=True, squeeze=False)
-    for axes, coding in zip(panels[0], codings, strict=True):
-        for index, swarm in enumerate(swarms):
-            group = [r for r in rows if r["swarm"] == swarm and r["coding"] == coding]
-            found = [traces[key_of(r)] for r in group if key_of(r) in traces]
-            if not found or optima[-1] is None:
-                continue
-            grid, (low, middle, high) = convergence(found, optima, group[0]["budget"])
-            colour, line = SWARM_STYLE[index % len(SWARM_STYLE)]
-            shown = np.isfinite(middle)
-            axes.plot(grid[shown], np.maximum(middle[shown], SMALLEST), line,
-                      color=colour, lw=1.4, label=swarm)  # fmt: skip
-            band = shown & np.isfinite(high)
-            low, high = np.maximum(low[band], SMALLEST), np.maximum(high[band], SMALLEST)
-            axes.fill_between(grid[band], low, high, color=colour, alpha=0.08, lw=0)
-        axes.set_xscale("log")
-        axes.set_yscale("log")
+    figure, grid = plt.subplots(
+        len(groups), len(codings), figsize=(10.5, 0.9 + 2.1 * len(groups)),
+        sharex="col", sharey=True, squeeze=False,
+    )  # fmt: skip
+    curves = {}
+    for coding in codings:
+        for swarm in swarms:
+            mine = [r for r in rows if r["swarm"] == swarm and r["coding"] == coding]
+            found = [traces[key_of(r)] for r in mine if key_of(r) in traces]
+            if found and optima[-1] is not None:
+                curves[coding, swarm] = convergence(found, optima, mine[0]["budget"])
+    for panels, (group, members) in zip(grid, groups.items(), strict=True):
+        for axes, coding in zip(panels, codings, strict=True):
+            for (where, swarm), (at, quartiles) in curves.items():
+                if where != coding:
+                    continue
+                if swarm in members:
+                    style = SWARM_STYLE[members.index(swarm) % len(SWARM_STYLE)]
+                    _converging(axes, at, quartiles, style, swarm)
+                else:  # the others, to compare with
+                    shown = np.isfinite(quartiles[1])
+                    axes.plot(at[shown], np.maximum(quartiles[1][shown], SMALLEST),
+                              color=GREY, lw=0.5, alpha=0.35)  # fmt: skip
+            axes.set_xscale("log")
+            axes.set_yscale("log")
+            axes.minorticks_off()  # as many as all the rest of the picture
+            axes.grid(alpha=0.25, lw=0.5)
+        panels[0].set_ylabel(f"{GROUPS[group]}\ngap of the best so far [1]", fontsize=8)
+        handles, labels = panels[-1].get_legend_handles_labels()
+        panels[-1].legend(handles, labels, loc="center left", bbox_to_anchor=(1.0, 0.5),
+                          frameon=False, fontsize=7.5)  # fmt: skip
+    for column, coding in enumerate(codings):
+        grid[0][column].set_title(coding, loc="left")
         per = " of each joint" if coding == "published" else ""
-        axes.set_xlabel(f"evaluations{per}")
-        axes.set_title(coding, loc="left")
-        axes.grid(alpha=0.25, lw=0.5)
-    panels[0][0].set_ylabel("gap of the best so far [1]")
-    handles, labels = panels[0][-1].get_legend_handles_labels()
-    figure.legend(handles, labels, loc="outside right center", frameon=False, fontsize=8)
+        grid[-1][column].set_xlabel(f"evaluations{per}")
     figure.suptitle(
-        f"{problem.name}: median over seeds, band: quartiles. published: mean over the joints, each"
-        " against its own optimum",
+        f"{problem.name}: median over seeds, band: quartiles; grey: all other swarms. published: mean"
+        " over the joints, each against its own optimum",
         fontsize=9,
     )
     return figure
+
+
+def _converging(axes: Axes, grid: Array, quartiles: Array, style: tuple[str, str], label: str) -> None:
+    """One swarm's median and its band."""
+    low, middle, high = quartiles
+    colour, line = style
+    shown = np.isfinite(middle)
+    axes.plot(grid[shown], np.maximum(middle[shown], SMALLEST), line,
+              color=colour, lw=1.4, label=label)  # fmt: skip
+    band = shown & np.isfinite(high)
+    axes.fill_between(grid[band], np.maximum(low[band], SMALLEST), np.maximum(high[band], SMALLEST),
+                      color=colour, alpha=0.08, lw=0)  # fmt: skip
 
 
 _QUANTITIES = (("position", ""), ("velocity", "/s"), ("acceleration", "/s²"), ("jerk", "/s³"))

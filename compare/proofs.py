@@ -30,14 +30,14 @@ TIME_LIMIT = 60.0  # s per proof
 
 @dataclass(frozen=True)
 class Task:
-    """One random problem and the gap asked for."""
+    """One random problem and the gaps asked for."""
 
     series: str
     segments: int
     joints: int
     limited: str
     seed: int
-    gap: float
+    gaps: tuple[float, ...]
 
 
 @dataclass(frozen=True)
@@ -75,40 +75,48 @@ def random_problem(task: Task) -> Problem:
     return Problem.of(waypoints, limits, name=f"random-{task.seed}")
 
 
-def prove(task: Task) -> Cost:
-    """Pose and prove one problem."""
+def prove(task: Task) -> list[Cost]:
+    """Pose one problem and prove it to every gap."""
     problem = random_problem(task)
     optimum = family_optimum(problem)
-    bound = family_bound(problem, gap=task.gap, time_limit=TIME_LIMIT, optimum=optimum)
     alone = optimum.starts[0].seconds
-    return Cost(
-        **{key: value for key, value in asdict(task).items() if key != "gap"},
-        gap_asked=task.gap,
-        gap_reached=bound.gap,
-        bound=bound.seconds,
-        upper=bound.upper,
-        boxes=bound.boxes,
-        seconds=bound.runtime,
-        status=bound.status,
-        wrong_basin=alone > bound.upper * (1.0 + 1e-6),
-    )
+    costs = []
+    for gap in task.gaps:
+        bound = family_bound(problem, gap=gap, time_limit=TIME_LIMIT, optimum=optimum)
+        costs.append(
+            Cost(
+                series=task.series,
+                segments=task.segments,
+                joints=task.joints,
+                limited=task.limited,
+                seed=task.seed,
+                gap_asked=gap,
+                gap_reached=bound.gap,
+                bound=bound.seconds,
+                upper=bound.upper,
+                boxes=bound.boxes,
+                seconds=bound.runtime,
+                status=bound.status,
+                wrong_basin=alone > bound.upper * (1.0 + 1e-6),
+            )
+        )
+    return costs
 
 
 def tasks(count: int, most_segments: int, each_size: int) -> list[Task]:
     """``count`` random 3-5-3 problems of 1 to 7 joints; six joints with more segments and digits."""
     many = [
-        Task("random 3-5-3", 3, 1 + seed % 7, LIMITED[seed % 3], seed, 1e-5) for seed in range(count)
+        Task("random 3-5-3", 3, 1 + seed % 7, LIMITED[seed % 3], seed, (1e-5,)) for seed in range(count)
     ]
     longer = [
-        Task("segments", segments, 6, limited, seed, 1e-4)
+        Task("segments", segments, 6, limited, seed, (1e-4,))
         for segments in range(2, most_segments + 1)
         for limited in LIMITED
         for seed in range(each_size)
     ]
     finer = [
-        Task("digits", segments, 6, "VA", seed, gap)
+        Task("digits", segments, 6, "VA", seed, GAPS)
         for segments in (3, 4, 5)
-        for gap in GAPS
         for seed in range(each_size)
     ]
     return [*many, *longer, *finer]
@@ -171,10 +179,10 @@ def study(pool: ProcessPoolExecutor, wanted: list[Task], folder: Path) -> list[C
     with (folder / "proofs.csv").open("w", newline="", encoding="utf-8") as lines:
         writer = csv.DictWriter(lines, list(Cost.__annotations__))
         writer.writeheader()
-        for cost in each(pool, "proofs", prove, [(task,) for task in wanted]):
-            writer.writerow(asdict(cost))
+        for found in each(pool, "proofs", prove, [(task,) for task in wanted]):
+            writer.writerows(asdict(cost) for cost in found)
             lines.flush()
-            costs.append(cost)
+            costs += found
     costs.sort(key=lambda cost: (cost.series, cost.segments, cost.limited, cost.seed, cost.gap_asked))
     draw(costs, folder)
     return costs

@@ -3,7 +3,9 @@
 from __future__ import annotations
 
 import base64
+import json
 from concurrent.futures import ProcessPoolExecutor
+from dataclasses import dataclass
 from pathlib import Path
 from typing import Any
 
@@ -16,9 +18,10 @@ from compare.objective import CODINGS
 from compare.run import each, workers
 from compare.statistics import Summary, best_claim, best_row, bound_of, summaries
 from compare.store import Store
+from compare.study import STUDIES
 from formulations import Problem, load
 from formulations.ladder import MEANINGS
-from metaheuristics import ALGORITHMS
+from metaheuristics import ALGORITHMS, GROUPS, NOT_REPRODUCIBLE
 
 FIGURES = {
     "ladder": "Every bound and the best swarm results on one time axis.",
@@ -52,7 +55,11 @@ def render(
     for _ in each(pool, "figures", draw_case, calls):
         pass
     context = _context(rows, ladders, problems, settings)
-    context["proofs"] = (folder / "figures" / "proofs.svg").exists()
+    context["studies"] = {
+        name: study for name, study in STUDIES.items() if (folder / "figures" / f"{name}.svg").exists()
+    }
+    bias = folder / "bias.json"
+    context["bias"] = json.loads(bias.read_text("utf-8"))["summary"] if bias.exists() else {}
     context["figures"] = {
         case: {name: (f"figures/{case}-{name}", caption) for name, caption in FIGURES.items()}
         for case in problems
@@ -65,6 +72,7 @@ def render(
         undefined=jinja2.StrictUndefined,
     )
     environment.filters["percent"] = percent
+    environment.filters["number"] = lambda gap: percent(gap).removesuffix(" %")
     environment.globals["inline"] = lambda name: _inline(folder / f"{name}.svg")
     environment.globals["shade"] = _shade
     for name in ("report.md", "index.html"):
@@ -93,12 +101,23 @@ def _context(
     found = summaries(rows)
     cases = [case for case in problems if case in ladders]
     codings = [c for c in CODINGS if any(row["coding"] == c for row in rows)]
-    swarms = [s for s in ALGORITHMS if any(row["swarm"] == s for row in rows)]
+    ran = {row["swarm"]: row["library"] for row in rows}
+    order = [name for name in ALGORITHMS if name in ran] + [
+        name for name in ran if name not in ALGORITHMS
+    ]
+    swarms = {name: _Swarm.of(name, ran[name]) for name in order}
     return {
         "cases": cases,
         "problems": problems,
         "codings": {c: CODINGS[c] for c in codings},
-        "swarms": {s: ALGORITHMS[s] for s in swarms},
+        "swarms": swarms,
+        "libraries": ran,
+        "groups": {
+            title: members
+            for group, title in GROUPS.items()
+            if (members := [name for name, entry in swarms.items() if entry.group == group])
+        },
+        "lost": NOT_REPRODUCIBLE,
         "summaries": found,
         "ladders": ladders,
         "rungs": RUNG_NAMES,
@@ -112,6 +131,25 @@ def _context(
         "versions": rows[0]["versions"] if rows else "",
         "limitations": LIMITATIONS,
     }
+
+
+@dataclass(frozen=True)
+class _Swarm:
+    """What the report says of a swarm; of somebody's own only what its rows know: no code is loaded."""
+
+    title: str
+    source: str
+    parameters: dict[str, Any]
+    group: str = "rivals"
+    shortfall: str = ""
+
+    @staticmethod
+    def of(name: str, library: str) -> _Swarm:
+        if name in ALGORITHMS:
+            a = ALGORITHMS[name]
+            return _Swarm(a.title, a.source, a.parameters, a.group, a.shortfall)
+        place, _, what = name.partition(":")
+        return _Swarm(f"{what} of {place}" if library else "plugged in", place, {})
 
 
 def _headline(

@@ -20,7 +20,9 @@ from compare.grade import Graded, Run, grade
 from compare.statistics import bound_of
 from compare.store import Store, key_of
 from formulations import FAMILIES, Problem, ladder
+from formulations.diagnosis import diagnose
 from formulations.ladder import versions
+from metaheuristics import algorithm
 
 T = TypeVar("T")
 
@@ -85,11 +87,13 @@ def swarm(
         case: {"problem": digest(problem), "versions": versions_text(), "machine": machine()}
         for case, problem in problems.items()
     }
+    libraries = {name: algorithm(name).versions for name in {run.swarm for run in runs}}
     finished = {
         key_of(row)
         for row in store.rows()
         if row["case"] in facts
         and all(row[name] == facts[row["case"]][name] for name in ("problem", "versions"))
+        and row["library"] == libraries.get(row["swarm"])
     }
     left = [run for run in runs if run.key not in finished]
     batches = [left[i : i + _BATCH] for i in range(0, len(left), _BATCH)]
@@ -108,6 +112,8 @@ def _ladder(case: str, problem: Problem, certify: bool) -> tuple[str, dict[str, 
     found = climbed.to_json()
     found["alone"] = [None if one is None else one.seconds for one in climbed.alone]
     found["title"], found["family"] = problem.title, problem.family
+    if climbed.free_form is not None:
+        found["held_up_by"] = diagnose(problem, climbed.free_form).lines()
     return case, found
 
 

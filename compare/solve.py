@@ -3,13 +3,18 @@
 from __future__ import annotations
 
 import sys
+from dataclasses import asdict
+from math import isfinite
 from pathlib import Path
 
 from compare import commands
 from formulations import InputError, Ladder, ladder, load
 from formulations.bounds.certificate import write_certificate
+from formulations.diagnosis import diagnose
 from formulations.export import write_motion
 from formulations.ladder import MEANINGS
+
+_LINES = 8  # of what holds the motion up
 
 
 def main() -> int:
@@ -27,6 +32,9 @@ def main() -> int:
         help="write the proof of family_lower, for python -m compare.check_certificate",
     )
     parser.add_argument(
+        "--gap", type=float, default=1e-3, help="aimed at between free_form and free_form_lower"
+    )
+    parser.add_argument(
         "--export", metavar="FILE", help="write the fastest verified motion (.csv or .json)"
     )
     parser.add_argument(
@@ -34,6 +42,8 @@ def main() -> int:
     )
     parser.add_argument("--seed", type=int, default=0, help="seed of the NLP's random starts")
     options = parser.parse_args()
+    if not (isfinite(options.gap) and options.gap > 0.0):
+        raise InputError(f"--gap: {options.gap:g} is not a positive number")
 
     problem = load(options.file)
     live = sys.stderr.isatty()
@@ -43,15 +53,27 @@ def main() -> int:
             print(f"\r\033[K{key} ...", end="", file=sys.stderr, flush=True)
 
     answer = ladder(
-        problem, seed=options.seed, certificate=bool(options.certificate), progress=progress
+        problem,
+        seed=options.seed,
+        certificate=bool(options.certificate),
+        gap=options.gap,
+        progress=progress,
     )
+    held = None
+    if answer.free_form is not None:
+        progress("what holds it up")
+        held = diagnose(problem, answer.free_form)
     if live:
         print("\r\033[K", end="", file=sys.stderr)
     print(f"{problem.name}: {problem.title}")
     print(f"{problem.dof} joints, {problem.n_segments} segments, family {problem.family}\n")
     print(as_text(answer))
+    if held is not None and held.holds:
+        print("\nwhat holds the fastest motion up")
+        print("\n".join(f"  {line}" for line in held.lines()[:_LINES]))
     if options.json:
-        commands.write_json(Path(options.json), answer.to_json())
+        diagnosis = None if held is None else asdict(held)
+        commands.write_json(Path(options.json), {**answer.to_json(), "diagnosis": diagnosis})
     if options.export:
         _export(options.export, answer, options.rate)
     if options.certificate:

@@ -12,7 +12,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from compare import commands
+from compare import commands, speed_swarms
 from compare.run import machine, versions_text
 from formulations import FAMILIES, InputError, Problem, check, load
 from formulations.problem import Array
@@ -87,10 +87,19 @@ def main() -> int:
         "python -m compare.speed --case ur5",
     )
     parser.add_argument("--case", default="sr4c", help="a 3-5-3 case or problem file")
+    parser.add_argument(
+        "--swarms",
+        action="store_true",
+        help="what each swarm costs beside its objective, and beside the same in mealpy",
+    )
     parser.add_argument("--rounds", type=int, default=5, help="rounds; the best one counts")
     options = parser.parse_args()
     rounds = commands.positive("--rounds", options.rounds)
     problem = load(options.case)
+    if options.swarms:
+        print(speed_swarms.as_text(problem, rounds))
+        print(f"{machine()}. {versions_text()}")
+        return commands.DONE
     if problem.family != "3-5-3":
         raise InputError(
             f"--case: the papers' 14x14 matrix is 3-5-3's, {options.case} is {problem.family}"

@@ -166,7 +166,7 @@ def main() -> int:
     options = parser.parse_args()
     for key in ("budget", "population"):
         commands.positive(f"--{key}", getattr(options, key))
-    swarm = commands.chosen("--swarm", options.swarm, ALGORITHMS)[0]
+    swarm = commands.swarms("--swarm", options.swarm, [])[0]
     problem = load(options.file)
     splits = split_of(
         problem,

@@ -25,6 +25,7 @@ COLUMNS: dict[str, type] = {
     "family": str,
     "coding": str,
     "swarm": str,
+    "library": str,
     "seed": int,
     "status": str,
     "claimed": float,

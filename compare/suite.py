@@ -35,7 +35,23 @@ PAPER_BUDGETS: dict[str, Budget] = {
 DEFAULT_BUDGET = Budget(50, 50)
 QUICK_BUDGET = Budget(20, 20)
 
-SEEDS = {"default": 10, "quick": 2, "full": 30}
+SEEDS = {"default": 5, "quick": 2, "full": 30}
+
+# what runs unless it is named: all of the papers and a few controls; whole rival libraries on demand
+QUICK_SWARMS = [
+    "pso", "mipso", "mpso", "pso-004", "sparrow", "issa", "whale", "whale-003", "random", "cma-es",
+]  # fmt: skip
+DEFAULT_CONTROLS = ["random", "de", "cma-es"]
+FULL_CONTROLS = ["random", "sobol", "de", "cma-es", "annealing", "nelder-mead", "slsqp"]
+RIVALS = ["lshade", "mealpy:OriginalPSO", "mealpy:OriginalWOA", "pymoo:PSO", "nevergrad:NGOpt"]
+
+
+def swarms_of(size: str) -> list[str]:
+    """Names of the swarms of a default, quick or full run."""
+    if size == "quick":
+        return QUICK_SWARMS
+    papers = [name for name, entry in ALGORITHMS.items() if entry.group != "controls"]
+    return papers + (FULL_CONTROLS if size == "full" else DEFAULT_CONTROLS)
 
 
 def quick_cases() -> list[str]:
@@ -51,6 +67,7 @@ def runs(
     codings: list[str] | None = None,
     seeds: int | None = None,
     evaluations: int | None = None,
+    seconds: float | None = None,
 ) -> list[Run]:
     """The runs of one comparison, in a fixed order. size: default, quick or full."""
     listed = []
@@ -61,8 +78,9 @@ def runs(
         elif size == "full":
             budget = PAPER_BUDGETS.get(case, DEFAULT_BUDGET)
         for coding in codings if codings is not None else CODINGS:
-            for swarm in swarms if swarms is not None else ALGORITHMS:
+            for swarm in swarms if swarms is not None else swarms_of(size):
                 for seed in range(seeds if seeds is not None else SEEDS[size]):
                     total = evaluations or budget.evaluations
-                    listed.append(Run(case, coding, swarm, seed, total, budget.population))
+                    run = Run(case, coding, swarm, seed, total, budget.population, seconds)
+                    listed.append(run)
     return listed

@@ -16,3 +16,11 @@ class UnsupportedProblem(InputError):  # noqa: N818  # a refusal, not a failure
 
 class NoFeasibleMotion(RuntimeError):  # noqa: N818  # the answer, in a word
     """No motion was found that keeps the position limits, or the conditions asked for."""
+
+
+class OutOfReach(InputError):  # noqa: N818  # a refusal, not a failure
+    """No joint positions within the limits reach a pose. distance: by how much it is missed [m]."""
+
+    def __init__(self, message: str, distance: float) -> None:
+        super().__init__(message)
+        self.distance = distance

@@ -23,9 +23,10 @@ from typing import Any
 
 import numpy as np
 
-from formulations.bounds import four_three_four, three_five_three
-from formulations.bounds.certificate import certificate_of
+from formulations.bounds import four_three_four, quintic, three_five_three
+from formulations.bounds.certificate import certificate_of, certificate_of_proof
 from formulations.bounds.domain import data_of
+from formulations.bounds.every_motion import every_motion
 from formulations.bounds.proof import Proof, Prover
 from formulations.errors import InputError, NoFeasibleMotion
 from formulations.families import FAMILIES
@@ -33,12 +34,22 @@ from formulations.family_optimum import FamilyOptimum, family_optimum, polished
 from formulations.problem import Array, Problem
 from formulations.trajectory import TOLERANCE, check
 
-PROVERS: dict[str, Prover] = {"3-5-3": three_five_three.begin, "4-3-4": four_three_four.begin}
+PROVERS: dict[str, Prover] = {
+    "3-5-3": three_five_three.begin,
+    "4-3-4": four_three_four.begin,
+    "quintic": quintic.begin,
+}
+
+# of a B-spline each piece depends on every duration; enclosures of it are of use only on boxes so narrow
+# that there are too many
+_EVERY_MOTION = "what is proved holds for every motion through the waypoints, not for B-splines alone"
 
 _STRAIGHT = 0.1  # share of the time limit for going straight to the gap that was asked for
 _SLICE = 0.02  # s between looks at the clock
 _SMALLEST = 1e-150  # rad; squares and quotients of smaller displacements leave the range of floats
 _RESTARTS = 30  # better basins the proof may find
+_BETTER = 1e-12  # relative; less is rounding
+_LOOK = 9.0  # times what the NLP took, before it is asked again
 
 
 @dataclass(frozen=True)
@@ -117,11 +128,22 @@ def family_bound(
         found = (optimum or family_optimum(problem)).durations
     except NoFeasibleMotion as failure:
         return answer(simple, None, np.inf, 0, f"not applicable: {failure}")
+    if chosen.name not in PROVERS:
+        motions = every_motion(problem)
+        events = motions.events(problem.moving_joints) if motions.seconds > simple else []
+        seconds, upper = max(simple, motions.seconds), float(found.sum())
+        status = "proved" if upper <= seconds * (1.0 + gap) else f"undecided: {_EVERY_MOTION}"
+        certificate = certificate_of(problem, seconds, events) if record else None
+        return answer(seconds, found, upper, 0, status, certificate)
     pursuit = _Pursuit(problem, PROVERS[chosen.name], found, record, progress)
     status = pursuit.run(gap, time_limit)
-    proof = pursuit.best
-    seconds = max(simple, proof.L if proof else 0.0)
-    certificate = certificate_of(problem, proof) if proof and record else None
+    proof, certificate = pursuit.best, None
+    seconds = max(simple, proof.seconds if proof else 0.0)
+    if record:
+        if proof is not None and proof.seconds >= simple:
+            certificate = certificate_of_proof(problem, proof)
+        else:
+            certificate = certificate_of(problem, simple)
     return answer(seconds, pursuit.durations, pursuit.upper, pursuit.boxes, status, certificate)
 
 
@@ -151,8 +173,6 @@ def displacement_bound(problem: Problem) -> float:
 
 def _refusal(problem: Problem) -> str:
     """Why no bound beyond the displacements can be proved; empty if one can."""
-    if problem.family not in PROVERS:
-        return f"no prover for {problem.family} yet (there is one for {', '.join(PROVERS)})"
     data = data_of(problem)
     unlimited = np.isinf(data.derivatives).all(axis=0)
     if unlimited.any():
@@ -183,20 +203,25 @@ class _Pursuit:
         self._adopt(durations)
         if not np.isfinite(self.upper):
             raise InputError("optimum: its motion does not pass the check")
-        self._attempt(self.upper).run(1)  # compiles what a search needs, before the clock runs
+        first = self._attempt(self.upper)
+        first.run(1)  # compiles what a search needs, before the clock runs
+        self.anytime = first.setup.anytime is not None
         self.deadline = np.inf
 
     def run(self, gap: float, time_limit: float) -> str:
-        """Straight to the gap if that is cheap, else from coarse to fine: no time is lost."""
+        """Straight to the gap if that is cheap, else from coarse to fine: no time is lost.
+
+        Where an unfinished attempt proves something too, straight to the gap all the time.
+        """
         started = time.perf_counter()
-        self.deadline = started + _STRAIGHT * time_limit
+        self.deadline = started + (1.0 if self.anytime else _STRAIGHT) * time_limit
         outcome = self._pursue(gap)
-        if outcome == "proved":
+        if outcome == "proved" or self.anytime:
             return outcome
         self.deadline = started + time_limit
         rungs = [10.0**-e for e in range(12) if 10.0**-e > 2.0 * gap]
         for rung in [*rungs, gap]:
-            if self.best is not None and self.upper / (1.0 + rung) <= self.best.L:
+            if self.best is not None and self.upper / (1.0 + rung) <= self.best.seconds:
                 continue
             outcome = self._pursue(rung)
             if outcome != "proved":
@@ -209,11 +234,13 @@ class _Pursuit:
             # a little finer than asked, so that rounding does not leave the gap a digit above it
             # and never for less than the displacements give
             proof = self._attempt(max(self.upper / (1.0 + gap * (1.0 - 1e-6)), self.simple))
-            self._run(proof)
+            improved = self._run(proof)
+            if proof.seconds > (self.best.seconds if self.best else 0.0):
+                self.best = proof
             if proof.proved:
-                if self.best is None or proof.L > self.best.L:
-                    self.best = proof
                 return "proved"
+            if improved:
+                continue
             if not proof.stuck:
                 return "time limit"
             if proof.setup.impossible:
@@ -223,11 +250,14 @@ class _Pursuit:
                 return f"undecided: the box about {np.array2string(proof.durations(), precision=6)} s"
 
     def _attempt(self, L: float) -> Proof:
-        return Proof(self.begin(self.problem, L), L, record=self.record)
+        return Proof(self.begin(self.problem, L, near=self.durations), L, record=self.record)
 
-    def _run(self, proof: Proof) -> None:
-        """Run an attempt until it ends or the time does."""
-        slice_ = 32
+    def _run(self, proof: Proof) -> bool:
+        """Run an attempt until it ends, the time does, or (then true) a better motion is found.
+
+        For one, the NLP looks near what an anytime attempt cannot discard, a tenth of the time.
+        """
+        slice_, looked, cost = 32, time.perf_counter(), 0.0
         while not (proof.proved or proof.stuck):
             before, clock = proof.boxes, time.perf_counter()
             if clock >= self.deadline:
@@ -237,7 +267,14 @@ class _Pursuit:
             slice_ = int(min(max((proof.boxes - before) * _SLICE / took, 1.0), 2.0 * slice_))
             self.boxes += proof.boxes - before
             if self.progress is not None:
-                self.progress(self.best.L if self.best else 0.0, self.boxes)
+                self.progress(self.best.seconds if self.best else 0.0, self.boxes)
+            clock = time.perf_counter()
+            if self.anytime and not proof.proved and clock - looked > _LOOK * cost:
+                if self._improve(proof.durations()):
+                    return True
+                looked = time.perf_counter()
+                cost = looked - clock
+        return False
 
     def _improve(self, guess: Array) -> bool:
         """Whether the NLP finds a better motion from the durations of an undecided box."""
@@ -247,7 +284,7 @@ class _Pursuit:
         if np.isfinite(local.seconds):
             self._adopt(local.durations)
         self.deadline += time.perf_counter() - paused  # the limit is the proof's alone
-        return self.upper < before
+        return self.upper < before * (1.0 - _BETTER)
 
     def _adopt(self, durations: Array) -> None:
         """Keep durations, stretched to feasibility, if they beat the best and pass the check."""

@@ -10,6 +10,8 @@ from dataclasses import dataclass, field
 from functools import partial
 from typing import Any, Literal
 
+import numpy as np
+
 from formulations.errors import NoFeasibleMotion, UnsupportedProblem
 from formulations.families import FAMILIES
 from formulations.family_bound import FamilyBound, family_bound
@@ -19,6 +21,8 @@ from formulations.family_optimum import (
     family_optimum,
     longest_segment,
 )
+from formulations.free_form import FreeForm, free_form
+from formulations.free_form_bound import free_form_bound
 from formulations.problem import Array, Problem
 from formulations.references import REFERENCES, Outcome, copp_on, toppra_on
 from formulations.trajectory import Trajectory, check
@@ -39,7 +43,6 @@ MEANINGS: dict[str, tuple[Kind, str]] = {
     "copp_family_path": ("reference", "jerk-limited optimum on the family optimum's path"),
 }
 
-_NOT_BUILT = "not part of this release"
 _GAP, _TIME_LIMIT = 1e-7, 20.0  # of the certified bound of the family; s
 
 
@@ -67,6 +70,7 @@ class Ladder:
     optimum: FamilyOptimum | None = field(repr=False)
     alone: tuple[FamilyOptimum | None, ...] = field(repr=False)
     bound: FamilyBound | None = field(default=None, repr=False)
+    free_form: FreeForm | None = field(default=None, repr=False)
 
     def seconds(self, key: str) -> float | None:
         """The number of a rung [s], None where there is none."""
@@ -98,34 +102,43 @@ def ladder(
     seed: int = 0,
     certify: bool = True,
     certificate: bool = False,
+    gap: float = 1e-3,
     progress: Callable[[str], None] | None = None,
 ) -> Ladder:
     """Climb every rung; a method that cannot be used or fails is a status with its reason.
 
-    certify: prove ``family_lower``. certificate: keep that proof in ``bound.certificate``.
+    certify: prove ``family_lower``. certificate: keep that proof in ``bound.certificate``. gap:
+    relative gap aimed at between ``free_form`` and ``free_form_lower``.
     """
-    climb = _Climb(problem, seed, certificate, progress or (lambda key: None))
+    climb = _Climb(problem, seed, certificate, gap, progress or (lambda key: None))
     return climb.run(certify)
 
 
 class _Climb:
     def __init__(
-        self, problem: Problem, seed: int, certificate: bool, progress: Callable[[str], None]
+        self,
+        problem: Problem,
+        seed: int,
+        certificate: bool,
+        gap: float,
+        progress: Callable[[str], None],
     ) -> None:
-        self.problem, self.seed, self.certificate, self.progress = problem, seed, certificate, progress
+        self.problem, self.seed, self.certificate, self.gap = problem, seed, certificate, gap
+        self.progress = progress
         self.rungs: dict[str, Rung] = {}
         self.durations: dict[str, Array] = {}
         self.trajectories: dict[str, Trajectory] = {}
         self.optimum: FamilyOptimum | None = None
         self.alone: tuple[FamilyOptimum | None, ...] = ()
         self.bound: FamilyBound | None = None
+        self.free_form: FreeForm | None = None
 
     def run(self, certify: bool) -> Ladder:
         for key in ("displacement", "ruckig_end_to_end", "ruckig_stop_and_go"):
             self._add(key, partial(REFERENCES[key], self.problem))
-        self._add("free_form_lower", self._best_lower)
-        self._add("free_form", lambda: Outcome.not_applicable(_NOT_BUILT))
         self._add("family", self._family)
+        self._add("free_form", self._free_form)
+        self._add("free_form_lower", self._free_form_lower)
         left_out = Outcome.not_applicable("not asked for")
         self._add("family_lower", self._family_lower if certify else lambda: left_out)
         self._add("family_longest_segment", self._longest_segment)
@@ -140,6 +153,7 @@ class _Climb:
             self.optimum,
             self.alone,
             self.bound,
+            self.free_form,
         )
 
     def _add(self, key: str, method: Callable[[], Outcome]) -> None:
@@ -162,17 +176,45 @@ class _Climb:
         if outcome.trajectory is not None:
             self.trajectories[key] = outcome.trajectory
 
-    def _best_lower(self) -> Outcome:
-        known = {
-            key: self.rungs[key].seconds
-            for key in ("displacement", "ruckig_end_to_end")
-            if self.rungs[key].seconds is not None
-        }
-        best = max(known, key=lambda key: known[key] or 0.0)
-        note = f"best of {', '.join(known)}"
-        if not self.problem.limits.has_acceleration and not self.problem.limits.has_jerk:
-            note = "with a velocity limit alone the displacement bound is the infimum itself"
-        return Outcome.ok(known[best] or 0.0, note=note)
+    def _free_form_lower(self) -> Outcome:
+        if not self.problem.moving_joints:
+            return Outcome.ok(0.0, note="nothing moves")
+        found = free_form_bound(
+            self.problem, gap=self.gap, upper=self.rungs["free_form"].seconds, time_limit=_TIME_LIMIT
+        )
+        note = f"by {found.method}"
+        if found.gap is not None:
+            note += f", gap {found.gap:.2g}"
+        if found.status != "proved":
+            note += f"; {found.status}"
+        # the references' own numbers hold as well, should they be the better ones
+        simple = {key: self.rungs[key].seconds or 0.0 for key in ("displacement", "ruckig_end_to_end")}
+        best = max(simple, key=lambda key: simple[key])
+        if simple[best] > found.seconds:
+            return Outcome.ok(simple[best], note=f"that of {best}")
+        return Outcome.ok(found.seconds, note=note)
+
+    def _free_form(self) -> Outcome:
+        if not self.problem.moving_joints:
+            return Outcome.ok(0.0, note="nothing moves")
+        found = free_form(self.problem, tolerance=self.gap)
+        self.free_form = found
+        note = "; ".join([found.method, *found.notes])
+        if found.status != "ok":
+            note += f"; {found.status}"
+        # splines and stops are motions too: whatever is faster is the fastest known
+        others = {key: self.rungs[key].seconds for key in ("family", "ruckig_stop_and_go")}
+        for key, seconds in others.items():
+            if seconds is not None and seconds < found.seconds and key in self.trajectories:
+                return Outcome.ok(
+                    seconds,
+                    durations=np.diff(self.trajectories[key].passage_times),
+                    trajectory=self.trajectories[key],
+                    note=f"that of {key}; the program's takes {found.seconds:.9g} s",
+                )
+        return Outcome.ok(
+            found.seconds, durations=found.durations, trajectory=found.trajectory, note=note
+        )
 
     def _family(self) -> Outcome:
         optimum = family_optimum(self.problem, seed=self.seed)
@@ -198,13 +240,18 @@ class _Climb:
             record=self.certificate,
         )
         self.bound = bound
-        if bound.status.startswith("not applicable"):
-            return Outcome.not_applicable(bound.status.removeprefix("not applicable: "))
-        note = f"{bound.boxes} boxes, gap {bound.gap:.2g}"
-        if bound.status != "proved":
-            note += f", {bound.status}"
+        whole = self.rungs["free_form_lower"].seconds or 0.0
+        status = bound.status.removeprefix("not applicable: ")
+        if bound.status.startswith("not applicable") and not whole > bound.seconds:
+            return Outcome.not_applicable(status)
+        note = f"{bound.boxes} boxes, gap {bound.gap:.2g}" if bound.boxes else status
+        if bound.boxes and status != "proved":
+            note += f", {status}"
         if bound.upper < self.optimum.seconds * (1.0 - _GAP):
             note += f"; the proof found a faster motion, {bound.upper:.9g} s"
+        if whole > bound.seconds:  # its splines are motions
+            gap = self.optimum.seconds / whole - 1.0
+            return Outcome.ok(whole, note=f"that of all motions, gap {gap:.2g}; {note}")
         return Outcome.ok(bound.seconds, note=note)
 
     def _longest_segment(self) -> Outcome:

@@ -10,6 +10,8 @@ from typing import Any
 
 import numpy as np
 
+from formulations.arms import joints_of, load_arm, pose_of
+from formulations.arms.arm import METRES
 from formulations.errors import InputError
 from formulations.families import FAMILIES
 from formulations.problem import Limits, Problem
@@ -22,7 +24,9 @@ CASES: tuple[str, ...] = tuple(
     )
 )
 
-_KEYS = ("name", "title", "source", "unit", "family", "waypoints", "limits")
+_POSED = ("arm", "pose", "length", "near")  # instead of waypoints
+_KEYS = ("name", "title", "source", "unit", "family", "waypoints", "limits", *_POSED)
+_POSE_KEYS = ("position", "rpy")
 _LIMIT_KEYS = ("unit", "velocity", "acceleration", "jerk", "position")
 _UNITS = {"rad": 1.0, "deg": math.pi / 180.0}
 _LARGEST_FILE = 10_000_000  # bytes; a problem file is a few kilobytes
@@ -66,7 +70,7 @@ def parse(text: str, *, where: str = "problem") -> Problem:
 
 def _problem(data: dict[str, Any]) -> Problem:
     _known_keys("key", data, _KEYS)
-    for key in ("waypoints", "limits"):
+    for key in ("pose" if "arm" in data else "waypoints", "limits"):
         if key not in data:
             raise InputError(f"{key}: missing")
     for key in ("name", "title", "source"):
@@ -77,7 +81,13 @@ def _problem(data: dict[str, Any]) -> Problem:
     if family is not None and (not isinstance(family, str) or family not in FAMILIES):
         raise InputError(f"family: {_shown(family)} is not one of {', '.join(FAMILIES)}")
 
-    waypoints = _matrix("waypoints", data["waypoints"])
+    if "arm" in data:
+        waypoints, reach = _waypoints_of_poses(data, _UNITS[unit])
+    else:
+        for key in _POSED[1:]:
+            if key in data:
+                raise InputError(f"{key}: needs an arm to be solved for (key arm)")
+        waypoints, reach = _matrix("waypoints", data["waypoints"]) * _UNITS[unit], None
     dof = waypoints.shape[1]
     table = data["limits"]
     if not isinstance(table, dict):
@@ -93,8 +103,10 @@ def _problem(data: dict[str, Any]) -> Problem:
             limits[key] = _limit(f"limits.{key}", table[key], dof) * scale
     if "position" in table:
         limits["position"] = _matrix("limits.position", table["position"], "joint", "value") * scale
+    elif reach is not None:
+        limits["position"] = reach
     problem = Problem.of(
-        waypoints * _UNITS[unit],
+        waypoints,
         Limits.of(**limits, dof=dof),
         name=data.get("name", "problem"),
         family=family,
@@ -105,6 +117,44 @@ def _problem(data: dict[str, Any]) -> Problem:
     if family is not None:
         FAMILIES[family].require(problem)
     return problem
+
+
+def _waypoints_of_poses(data: dict[str, Any], angle: float) -> tuple[Any, Any]:
+    """Joint waypoints (n, dof) of ``[[pose]]`` by inverse kinematics; the arm's joint limits (dof, 2).
+
+    angle: rad per unit of the file. Each pose takes the branch nearest to the last one, the first the
+    one nearest to ``near``.
+    """
+    if "waypoints" in data:
+        raise InputError("waypoints: given beside arm and pose; leave one of them out")
+    if not isinstance(data["arm"], str):
+        raise InputError(f"arm: expected a name, got {_shown(data['arm'])}")
+    arm = load_arm(data["arm"])
+    length = data.get("length", "m")
+    if not isinstance(length, str) or length not in METRES:
+        raise InputError(f"length: {_shown(length)} is not one of {', '.join(METRES)}")
+    near = None
+    if "near" in data:
+        near = _matrix("near", [data["near"]])[0] * angle
+        if len(near) != arm.dof:
+            raise InputError(f"near: {len(near)} values for {arm.dof} joints")
+    tables = data["pose"]
+    if not isinstance(tables, list) or not tables or not all(isinstance(t, dict) for t in tables):
+        raise InputError(f"pose: expected tables [[pose]], got {_shown(tables)}")
+    poses = []
+    for index, table in enumerate(tables):
+        where = f"pose {index + 1}"
+        _known_keys(where, table, _POSE_KEYS)
+        vectors = []
+        for key in _POSE_KEYS:
+            if key not in table:
+                raise InputError(f"{where}: {key}: missing")
+            vector = _matrix(f"{where}: {key}", [table[key]], "row", "value")[0]
+            if len(vector) != 3:
+                raise InputError(f"{where}: {key}: {len(vector)} values where 3 are expected")
+            vectors.append(vector)
+        poses.append(pose_of(vectors[0] * METRES[length], vectors[1] * angle))
+    return joints_of(arm, poses, near), arm.position
 
 
 def _unit(key: str, value: Any) -> str:

@@ -12,8 +12,8 @@ from math import cos, exp, pi
 
 import numpy as np
 
-from metaheuristics.minimise import Array, Moves, Task
 from metaheuristics.pso import Factors, Swarm
+from metaheuristics.task import Array, Moves, Task
 
 MEAN_DECAY = 0.4036526376768059  # of exp(1 - 1/k) over k in [0, 1]: 1 - Gompertz's constant
 
@@ -76,7 +76,7 @@ def _evolve(
     swarm.remember((yield swarm.x))
     while True:
         swarm.move(*factors(task.progress))  # (10), (11)
-        fitness = yield swarm.x
+        fitness = (yield swarm.x).copy()
         swarm.remember(fitness)
         if pm is None:
             continue

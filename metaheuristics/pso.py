@@ -14,7 +14,7 @@ from typing import TypeAlias
 
 import numpy as np
 
-from metaheuristics.minimise import Array, Moves, Task
+from metaheuristics.task import Array, Moves, Task
 
 Factors: TypeAlias = Callable[[float], tuple[float, float, float]]
 """Progress k/K in [0, 1] -> (w, c1, c2)."""
@@ -44,8 +44,11 @@ class Swarm:
         if fitness[i] < self.g_fitness:
             self.g, self.g_fitness = self.x[i].copy(), float(fitness[i])
 
-    def move(self, w: float, c1: float, c2: float) -> None:
-        """Take one synchronous step with inertia w, own factor c1 and social factor c2."""
+    def move(self, w: float, c1: float | Array, c2: float | Array) -> None:
+        """Take one synchronous step with inertia w, own factor c1 and social factor c2.
+
+        The factors are numbers, or one for each particle (n, 1).
+        """
         r1, r2 = self._task.rng.random((2, *self.x.shape))
         v = w * self.v + c1 * r1 * (self.p - self.x) + c2 * r2 * (self.g - self.x)  # 004 (1), (3)
         self.v = np.minimum(np.maximum(v, -self._v_max), self._v_max)

@@ -5,7 +5,7 @@ Source: no paper; independent uniform points, the best one kept by the driver.
 
 from __future__ import annotations
 
-from metaheuristics.minimise import Moves, Task
+from metaheuristics.task import Moves, Task
 
 
 def random_search(task: Task, *, population: int = 50) -> Moves:

@@ -9,7 +9,7 @@ from __future__ import annotations
 
 import numpy as np
 
-from metaheuristics.minimise import Moves, Task
+from metaheuristics.task import Moves, Task
 
 
 def whale(task: Task, *, population: int = 50, b: float = 1.0) -> Moves:

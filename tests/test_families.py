@@ -440,10 +440,10 @@ def test_peaks_and_stretch_agree_with_dense_samples(family: str, data: st.DataOb
         assert (sampled >= exact * (1.0 - 1e-6) - slack).all()
         ratios[order - 1] = (exact / limits[order - 1]) ** (1.0 / order)
     stretch = float(chosen.stretch(problem, t[None])[0])
-    assert stretch == pytest.approx(ratios.max(), rel=1e-12, abs=0.0)
+    assert stretch == pytest.approx(ratios.max(), rel=1e-11, abs=0.0)
     if stretch > 0.0:
         again = t * stretch
-        assert chosen.stretch(problem, again[None])[0] == pytest.approx(1.0, rel=1e-12)
+        assert chosen.stretch(problem, again[None])[0] == pytest.approx(1.0, rel=1e-11)
         for order in (1, 2, 3):
             lengths, c = pieces(problem, again)
             sampled = np.abs(dense(c, lengths, order))

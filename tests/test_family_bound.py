@@ -398,14 +398,30 @@ def test_the_checker_follows_open_segments_jumps_and_position_limits(tmp_path: P
             assert outcome(tmp_path, bound.certificate) == CERTIFIED
 
 
-def test_a_certificate_that_says_it_is_incomplete_is_refused(tmp_path: Path) -> None:
+@pytest.mark.parametrize("ends", [(), (0,), (2,)])
+def test_the_checker_proves_that_a_still_middle_segment_cannot_vanish(
+    ends: tuple[int, ...], tmp_path: Path
+) -> None:
     problem = random_problem(np.random.default_rng(1), 3, 2, "VA", least=-0.5, still=1)
+    d = np.diff(problem.waypoints, axis=0)
+    d[list(ends)] = 0.0  # nothing moves there either
+    problem = replace(problem, waypoints=np.concatenate([[np.zeros(2)], np.cumsum(d, axis=0)]))
     bound = family_bound(problem, gap=1e-3, record=True)
-    assert bound.certificate is not None
-    assert bound.certificate["unlogged"]
-    assert outcome(tmp_path, bound.certificate) == REFUSED
-    bound.certificate["unlogged"] = ""
-    assert outcome(tmp_path, bound.certificate) == REFUSED
+    assert bound.status == "proved"
+    certificate: Any = bound.certificate
+    assert outcome(tmp_path, certificate) == CERTIFIED
+    discards = certificate["short"]["discards"]
+    for fault in (
+        lambda c: c.pop("short"),
+        lambda c: c["short"]["discards"].pop(),
+        lambda c: c["short"]["discards"].pop(0),
+        lambda c: c["short"].update(tau=(0.5 * bound.seconds).hex()),
+        lambda c: c["short"]["discards"][-1].__setitem__(-1, -discards[-1][-1]),
+        lambda c: c["short"]["discards"][-1].__setitem__(5, (2.0).hex()),
+    ):
+        faulty = copy.deepcopy(certificate)
+        fault(faulty)
+        assert outcome(tmp_path, faulty) != CERTIFIED
 
 
 def leaves(certificate: Any) -> list[int]:

@@ -2,7 +2,9 @@
 lost.
 
     format, family, name; waypoints, limits (null: unlimited), position_slack [rad]; seconds: the bound
-    unlogged   what the events lack, if anything; such a certificate cannot be checked
+    short      null, or for a middle segment of 3-5-3 on which nothing moves: tau, and what discards
+               T2 <= tau, from the longest T1 down: ["p", lo, hi, joint, order, place, sign] a limit
+               inside it, ["l", lo, hi] the last segment, for T1 in [lo, hi]
     events     in depth-first order (see ``log``), the first letter says which:
                ["T"] ["E"] ["S", k, value] ["L", rows] ["B", k, value, rows] ["A", k, value, rows]
                without rows: those of the event before
@@ -46,8 +48,13 @@ _LETTERS = {TURN: "T", EMPTY: "E", LEAF: "L", BELOW: "B", ABOVE: "A", SPLIT: "S"
 _ALONE = {TOTAL: "t", FIRST: "f", LAST: "l"}
 
 
-def certificate_of(problem: Problem, proof: Proof) -> dict[str, Any]:
-    """The certificate of a proof that was recorded and is proved."""
+def certificate_of(
+    problem: Problem,
+    seconds: float,
+    events: list[list[Any]] | None = None,
+    short: dict[str, Any] | None = None,
+) -> dict[str, Any]:
+    """The certificate of a bound [s]; without events, that of displacement over speed."""
     limits = problem.limits
     return {
         "format": FORMAT,
@@ -61,10 +68,15 @@ def certificate_of(problem: Problem, proof: Proof) -> dict[str, Any]:
             "position": _hex(limits.position),
         },
         "position_slack": problem.position_slack.hex(),
-        "seconds": proof.L.hex(),
-        "unlogged": proof.setup.unlogged,
-        "events": _events(problem, proof),
+        "seconds": seconds.hex(),
+        "short": short,
+        "events": events or [],
     }
+
+
+def certificate_of_proof(problem: Problem, proof: Proof) -> dict[str, Any]:
+    """The certificate of what a recorded proof has proved."""
+    return certificate_of(problem, proof.seconds, _events(problem, proof), _short(problem, proof))
 
 
 def write_certificate(path: str | Path, certificate: dict[str, Any]) -> None:
@@ -87,7 +99,24 @@ def _hex(values: Array) -> Any:
     return [float(x).hex() if np.isfinite(x) else None for x in values]
 
 
+def _short(problem: Problem, proof: Proof) -> Any:
+    if proof.setup.short is None:
+        return None
+    tau, leaves = proof.setup.short
+    discards: list[list[Any]] = []
+    for lo, hi, j, order, place, sign in leaves.tolist():
+        where = [lo.hex(), hi.hex()]
+        if order:
+            joint = problem.moving_joints[int(j)]
+            discards.append(["p", *where, joint, int(order), place.hex(), int(sign)])
+        else:
+            discards.append(["l", *where])
+    return {"tau": tau.hex(), "discards": discards}
+
+
 def _events(problem: Problem, proof: Proof) -> list[list[Any]]:
+    if proof.setup.anytime is not None:
+        return proof.setup.anytime.events
     log = proof.log()
     moving = problem.moving_joints
     events: list[list[Any]] = []

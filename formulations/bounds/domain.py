@@ -31,7 +31,8 @@ class Data:
     @property
     def least(self) -> Array:
         """Lower bounds of |d|, (n_segments, dof) [rad]."""
-        return np.where(self.d != 0.0, np.minimum(abs(self.d_lo), abs(self.d_hi)), 0.0)
+        apart = np.sign(self.d_lo) * np.sign(self.d_hi) > 0.0
+        return np.where(apart, np.minimum(abs(self.d_lo), abs(self.d_hi)), 0.0)
 
     def speed(self, L: float) -> Array:
         """Upper bound on each joint's speed in L seconds from rest to rest, (dof,) [rad/s].
@@ -48,14 +49,21 @@ class Data:
         return np.asarray((self.least / self.speed(L)).max(axis=1) * LESS)
 
 
-def data_of(problem: Problem) -> Data:
-    """The data of a problem in which something moves."""
+def data_of(problem: Problem, blur: Array | None = None) -> Data:
+    """The data of a problem in which something moves.
+
+    blur: (n_segments, dof) [rad] by which each displacement may differ: the bound then holds for every
+    such problem, if on each segment some joint is sure to move or none can.
+    """
     moving = problem.moving_joints
     w = np.ascontiguousarray(problem.waypoints[:, moving])
     d = np.ascontiguousarray(np.diff(w, axis=0))
+    around = np.zeros_like(d) if blur is None else blur[:, moving]
     # a difference of floats is zero only if it is exactly zero
-    d_lo = np.where(d != 0.0, np.nextafter(d, -inf), 0.0)
-    d_hi = np.where(d != 0.0, np.nextafter(d, inf), 0.0)
+    known = (d == 0.0) & (around == 0.0)
+    d_lo = np.where(known, 0.0, np.nextafter(np.nextafter(d, -inf) - around, -inf))
+    d_hi = np.where(known, 0.0, np.nextafter(np.nextafter(d, inf) + around, inf))
+    around = around.max(axis=0)
     low, high = problem.position_bounds[moving].T
     slack = problem.position_slack * 1.001  # the thousandth covers rounding, here and in the judges
     return Data(
@@ -63,6 +71,6 @@ def data_of(problem: Problem) -> Data:
         d_lo=d_lo,
         d_hi=d_hi,
         derivatives=np.ascontiguousarray(problem.limits.derivatives[:, moving]),
-        room_above=high - w[:-1] + slack,
-        room_below=w[:-1] - low + slack,
+        room_above=high - w[:-1] + slack + around,
+        room_below=w[:-1] - low + slack + around,
     )

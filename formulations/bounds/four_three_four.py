@@ -37,9 +37,17 @@ from formulations.problem import Array, Problem
 _FLOOR = 1e-10  # of L: an open segment this short is not split further
 
 
-def begin(problem: Problem, L: float, *, narrow: float = NARROW, aside: bool = False) -> Setup:
+def begin(
+    problem: Problem,
+    L: float,
+    *,
+    near: Array | None = None,
+    narrow: float = NARROW,
+    aside: bool = False,
+    blur: Array | None = None,
+) -> Setup:
     """Set up the attempt to prove that no 4-3-...-3-4 motion takes L or less."""
-    data = data_of(problem)
+    data = data_of(problem, blur)
     n, dof = data.d.shape
     compiled_data = (
         data.d_lo, data.d_hi, data.derivatives, data.room_below, data.room_above, BASIS

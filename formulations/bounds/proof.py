@@ -15,13 +15,29 @@ NARROW = 1e-11  # logarithmic width below which a box is undecided
 _CAPACITY = 20_000  # events kept before they are moved out of the compiled search
 
 
+class Anytime(Protocol):
+    """What an attempt has proved by now: reached [s], and the events of its certificate."""
+
+    @property
+    def reached(self) -> float:
+        """No motion of the family is faster [s]."""
+        ...
+
+    @property
+    def events(self) -> list[list[Any]]:
+        """What proves it, as a certificate writes it."""
+        ...
+
+
 @dataclass(frozen=True)
 class Setup:
     """What a family's prover needs to begin: the domain, and one slice of the search.
 
     advance(depth, max_boxes, counts, log) -> (depth, stuck), see ``search``; durations(depth): those at
     the middle of the next box, (n_segments,) [s]. depth 0: L is below the sum of the least durations.
-    impossible: why no search can prove L. unlogged: what a certificate from the log would lack.
+    impossible: why no search can prove L. short: with a middle segment of 3-5-3 on which nothing moves,
+    tau and the discards for T2 <= tau (``three_five_three_short``). anytime: of a prover whose unfinished
+    attempts prove something too.
     """
 
     n_variables: int
@@ -30,16 +46,27 @@ class Setup:
     advance: Callable[[int, int, Any, Any], tuple[int, bool]]
     durations: Callable[[int], Array]
     impossible: str = ""
-    unlogged: str = ""
+    short: tuple[float, Array] | None = None
+    anytime: Anytime | None = None
 
 
 class Prover(Protocol):
     """A family's prover: everything for one attempt at the bound L [s]."""
 
     def __call__(
-        self, problem: Problem, L: float, *, narrow: float = NARROW, aside: bool = False
+        self,
+        problem: Problem,
+        L: float,
+        *,
+        near: Array | None = None,
+        narrow: float = NARROW,
+        aside: bool = False,
+        blur: Array | None = None,
     ) -> Setup:
-        """Set the search up. narrow, aside: see ``search``; a proof needs aside=False."""
+        """Set the search up. near: the best durations known, (n_segments,) [s], a hint that no proof
+        rests on. narrow, aside: see ``search``; a proof needs aside=False.
+        blur: see ``data_of``.
+        """
         ...
 
 
@@ -71,6 +98,13 @@ class Proof:
     def proved(self) -> bool:
         """Whether nothing of the domain is left: L is a lower bound."""
         return self.depth == 0 and not self.stuck
+
+    @property
+    def seconds(self) -> float:
+        """The bound proved by now: L once ``proved``."""
+        if self.proved:
+            return self.L
+        return min(self.setup.anytime.reached, self.L) if self.setup.anytime else 0.0
 
     @property
     def boxes(self) -> int:

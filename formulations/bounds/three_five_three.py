@@ -37,7 +37,7 @@ from formulations.compiled import Late
 from formulations.problem import Array, Problem
 
 SHORT = 1e-10  # of L: a middle segment on which nothing moves may be as short as it likes
-_SHORT_BOXES = 20_000
+_SHORT_LEAVES = 20_000
 _search = Late(search)
 
 
@@ -52,22 +52,32 @@ def shortest_segments(data: Data, L: float) -> Array:
     return shortest
 
 
-def begin(problem: Problem, L: float, *, narrow: float = NARROW, aside: bool = False) -> Setup:
+def begin(
+    problem: Problem,
+    L: float,
+    *,
+    near: Array | None = None,
+    narrow: float = NARROW,
+    aside: bool = False,
+    blur: Array | None = None,
+) -> Setup:
     """Set up the attempt to prove that no 3-5-3 motion takes L or less."""
-    data = data_of(problem)
+    data = data_of(problem, blur)
     room = np.stack([data.room_above[1], data.room_below[1]])
     limit = np.concatenate([room, data.derivatives])
     compiled_data = (data.d_lo, data.d_hi, limit, BASIS)
     shortest = shortest_segments(data, L)
     has = (data.d[[0, 2]] != 0.0).any(axis=1)
     slack = np.array([L - (shortest.sum() - t) for t in shortest]) * (1.0 + 1e-14) + 1e-14 * L
-    impossible = unlogged = ""
+    impossible, short = "", None
     empty = bool(shortest.sum() > L * (1.0 + 1e-13))
     if not empty and not (data.d[1] != 0.0).any():
         shortest[1] = tau = SHORT * L
-        unlogged = "nothing moves on the middle segment: its vanishing is proved, but not logged"
-        if not short_middle(compiled_data, data.d, has, shortest, L, tau, _SHORT_BOXES):
+        leaves = np.zeros((_SHORT_LEAVES, 6))
+        count = short_middle(compiled_data, data.d, has, shortest, L, tau, leaves)
+        if count < 0:
             impossible = "undecided where the middle segment vanishes"
+        short = tau, leaves[:count]
 
     stack = np.ones((STACK, 2, 2))
     if not empty:
@@ -89,4 +99,4 @@ def begin(problem: Problem, L: float, *, narrow: float = NARROW, aside: bool = F
         return np.array([middle * inverse[0], middle, middle * inverse[1]])
 
     depth = 0 if empty else 1
-    return Setup(2, MOST_ROWS, depth, advance, durations, impossible, unlogged)
+    return Setup(2, MOST_ROWS, depth, advance, durations, impossible, short)

@@ -5,7 +5,8 @@ Derivative k >= 1 of the middle piece times T2^(k-1) is, with r = T2/T1 and q = 
     d1/T1 (B(s) + C(s) r) + d3/T3 (E(s) + F(s) q),   r in [0, tau/T1], q in [0, tau/T3],
 
 and must not exceed limit T2^(k-1) <= limit tau^(k-1): finite as T2 -> 0. T1 alone is branched on, as
-T3 = L - T1 - T2 follows to within tau; a segment on which nothing moves is dropped.
+T3 = L - T1 - T2 follows to within tau; a segment on which nothing moves is dropped. Each interval of T1
+is discarded by one such derivative, or as T3 is too short for it.
 """
 
 from __future__ import annotations
@@ -19,10 +20,12 @@ from formulations.compiled import compiled
 
 
 @compiled
-def short_middle(
-    data: Any, d: Any, has: Any, shortest: Any, L: float, tau: float, max_boxes: int
-) -> bool:
-    """Whether a proof is found that no motion has T2 <= tau and total time L (see ``excess``)."""
+def short_middle(data: Any, d: Any, has: Any, shortest: Any, L: float, tau: float, leaves: Any) -> int:
+    """Prove that no motion has T2 <= tau and total time L (see ``excess``).
+
+    leaves: (m, 6) takes the discards, from the longest T1 down: its interval, joint, order (0: T3 is
+    too short), place, sign. Returns their number, or -1 if m do not suffice.
+    """
     d_lo, d_hi, limit, basis = data
     dof = d.shape[1]
     stack = np.empty((200, 2))  # T1
@@ -30,16 +33,19 @@ def short_middle(
     # left
     stack[0, 0] = 0.0 if not has[0] else (shortest[0] if has[1] else down(L - tau))
     stack[0, 1] = 0.0 if not has[0] else up(L - shortest[2])
-    depth, count = 1, 0
+    depth, count, boxes = 1, 0, 0
     while depth > 0:
         depth -= 1
         lo, hi = stack[depth, 0], stack[depth, 1]
-        count += 1
-        if count > max_boxes:
-            return False
+        boxes += 1
+        if boxes > 4 * len(leaves) or count >= len(leaves):
+            return -1
         t_lo = max(shortest[2], down(down(L - tau) - hi))
         t_hi = up(L - lo)
+        leaf = leaves[count]
+        leaf[0], leaf[1], leaf[3] = lo, hi, 0.0
         if t_hi < shortest[2]:
+            count += 1
             continue
         x_lo = down(1.0 / hi) if has[0] else 0.0
         x_hi = up(1.0 / lo) if has[0] else 0.0
@@ -82,12 +88,14 @@ def short_middle(
                     most = up(most * tau)
                 if down(total_lo - most) > 0.0:
                     gone = True
+                    leaf[2], leaf[3], leaf[4], leaf[5] = j, k, best, g
         if gone:
+            count += 1
             continue
         if hi - lo < 1e-13 * L or depth > 196:
-            return False
+            return -1
         middle = 0.5 * (lo + hi)
         stack[depth, 0], stack[depth, 1] = lo, middle
         stack[depth + 1, 0], stack[depth + 1, 1] = middle, hi
         depth += 2
-    return True
+    return count

@@ -10,8 +10,10 @@ the degree open.
 
 from __future__ import annotations
 
+from functools import lru_cache
 from typing import Any
 
+import casadi
 import numpy as np
 from numpy.typing import NDArray
 
@@ -208,8 +210,8 @@ def _spans(durations: Array, degree: int) -> NDArray[np.int64]:
     return spans
 
 
-def _symbols(waypoints: Array, t: list[Any], near: Array, degree: int) -> tuple[list[Any], list[Any]]:
-    """Splines on symbols, for the pattern of knots that ``near`` has (see ``Family``)."""
+def _shared(t: list[Any], degree: int, spans: NDArray[np.int64]) -> tuple[Any, Any, Any, Any]:
+    """What all joints share: lengths, basis functions, collocation; on whatever t are."""
     n = len(t)
     n_spans = n + 5 - degree
     gaps, between = scratch(n + 1, n + 1), scratch(n_spans + 1, n_spans + 1)
@@ -219,7 +221,6 @@ def _symbols(waypoints: Array, t: list[Any], near: Array, degree: int) -> tuple[
         scratch(n_spans, degree + 1, WIDTH),
     )
     values, matrix = scratch(max(n - 1, 1), degree + 1), scratch(max(n - 1, 1), n + 5)
-    spans = _spans(near, degree)
     apart.py_func(t, gaps)
     knots.py_func(gaps, degree, reach, h)
     apart.py_func(h, between)
@@ -227,12 +228,41 @@ def _symbols(waypoints: Array, t: list[Any], near: Array, degree: int) -> tuple[
     if n > 1:
         collocation.py_func(reach, between, spans, degree, values, matrix)
         eliminate.py_func(matrix)
+    return h, functions, values, matrix
+
+
+@lru_cache(maxsize=64)
+def _built(n: int, degree: int, pattern: tuple[int, ...]) -> casadi.Function:
+    """``_shared`` as a function of the durations: built once per pattern of knots."""
+    t = casadi.SX.sym("t", n)
+    parts = _shared(casadi.vertsplit(t), degree, np.array(pattern))
+    return casadi.Function("shared", [t], [casadi.vertcat(*part.ravel()) for part in parts])
+
+
+def _symbols(waypoints: Array, t: list[Any], near: Array, degree: int) -> tuple[list[Any], list[Any]]:
+    """Splines on symbols, for the pattern of knots that ``near`` has (see ``Family``)."""
+    n = len(t)
+    n_spans, rows = n + 5 - degree, max(n - 1, 1)
+    spans = _spans(near, degree)
+    if isinstance(t[0], casadi.SX):
+        shapes = (n_spans,), (n_spans, degree + 1, WIDTH), (rows, degree + 1), (rows, n + 5)
+        columns = _built(n, degree, tuple(spans))(casadi.vertcat(*t))
+        h, functions, values, matrix = map(_cells, columns, shapes)
+    else:
+        h, functions, values, matrix = _shared(t, degree, spans)
     joints = []
     for x in waypoints.T.tolist():
         c = scratch(n_spans, WIDTH)
         joint.py_func(x, degree, functions, spans, values, matrix, scratch(n + 5), c)
         joints.append([list(row) for row in c])
     return list(h), joints
+
+
+def _cells(column: Any, shape: tuple[int, ...]) -> Any:
+    """A column of symbols as an array that Python's loops can run on."""
+    cells = scratch(column.numel())
+    cells[:] = casadi.vertsplit(column)
+    return cells.reshape(shape)
 
 
 def _family(degree: int) -> Family:

@@ -1,0 +1,241 @@
+"""A paper's TOML file -> Paper. Every error is one line that names the key."""
+
+from __future__ import annotations
+
+import tomllib
+from dataclasses import replace
+from importlib.resources import files
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+
+from compare.audit.paper import RULES, UNITS, Claim, Paper, Point, Row, Stated, Total
+from compare.audit.printed import halves, printed, row, values
+from formulations import FAMILIES, InputError
+from formulations.arms import ARMS
+from formulations.arms.arm import METRES
+from formulations.problem import Array
+from formulations.trajectory import QUANTITIES
+
+PAPERS: tuple[str, ...] = tuple(
+    sorted(
+        entry.name.removesuffix(".toml")
+        for entry in files("compare.audit.published").iterdir()
+        if entry.name.endswith(".toml")
+    )
+)
+
+
+def load_papers(name_or_file: str) -> list[Paper]:
+    """The shipped paper of that name with its variants, or those of a TOML file.
+
+    Raises InputError with one line that names the key.
+    """
+    if name_or_file in PAPERS:
+        text = (files("compare.audit.published") / f"{name_or_file}.toml").read_text("utf-8")
+        return parse_papers(text, name_or_file)
+    path = Path(name_or_file)
+    try:
+        text = path.read_text("utf-8")
+    except FileNotFoundError:
+        raise InputError(
+            f"{path}: no such file, and no paper of that name (papers: {', '.join(PAPERS)})"
+        ) from None
+    except (OSError, ValueError) as error:
+        raise InputError(f"{path}: cannot be read: {error}") from None
+    return parse_papers(text, path.stem)
+
+
+def parse_papers(text: str, name: str) -> list[Paper]:
+    """The paper of a TOML text, and its variants: other readings of single waypoints."""
+    try:
+        data = tomllib.loads(text)
+    except (ValueError, RecursionError) as error:
+        raise InputError(f"{name}: not valid TOML: {error}") from None
+    try:
+        paper = _paper(data, name)
+        variants = [_variant(paper, table) for table in _tables(data, "variant")]
+    except InputError as error:
+        raise InputError(f"{name}: {error}") from None
+    except KeyError as error:
+        raise InputError(f"{name}: {error.args[0]}: missing") from None
+    return [paper, *variants]
+
+
+def _paper(data: dict[str, Any], name: str) -> Paper:
+    known = (
+        "title", "source", "notes", "family", "arm", "limited", "waypoints", "limits", "table",
+        "totals", "claim", "point", "variant",
+    )  # fmt: skip
+    for key in data:
+        if key not in known:
+            raise InputError(f"unknown key {key!r} (known: {', '.join(known)})")
+    if data["family"] not in FAMILIES:
+        raise InputError(f"family: {data['family']!r} is not one of {', '.join(FAMILIES)}")
+    arm = data.get("arm")
+    if arm is not None and arm not in ARMS:
+        raise InputError(f"arm: {arm!r} is not one of {', '.join(ARMS)}")
+    limited = tuple(data.get("limited", ["velocity"]))
+    for quantity in limited:
+        if quantity not in QUANTITIES[1:]:
+            raise InputError(f"limited: {quantity!r} is not one of {', '.join(QUANTITIES[1:])}")
+    table = data["waypoints"]
+    unit = _one_of("waypoints: unit", table["unit"], UNITS)
+    waypoints = half = None
+    count = table.get("count", 0)
+    if "rows" in table:
+        width = len(table["rows"][0])
+        grid = [row(f"waypoints: row {i + 1}", r, width) for i, r in enumerate(table["rows"])]
+        waypoints = np.array([values(r) for r in grid]) * UNITS[unit]
+        half = np.array([halves(r) for r in grid]) * UNITS[unit]
+        count = len(grid)
+    dof = None if waypoints is None else waypoints.shape[1]
+    stated = {s.name: s for s in (_stated(t, dof) for t in _tables(data, "limits"))}
+    shown = next((t["unit"] for t in _tables(data, "limits")), unit)
+    paper = Paper(
+        name=name,
+        title=data.get("title", name),
+        source=" ".join(data.get("source", "").split()),
+        notes=" ".join(data.get("notes", "").split()),
+        family=data["family"],
+        arm=arm,
+        limited=limited,
+        unit=shown,
+        n_waypoints=count,
+        waypoints=waypoints,
+        halves=half,
+        stated=stated,
+        rows=(),
+        totals=(),
+        claims=tuple(_claim(t) for t in _tables(data, "claim")),
+        points=tuple(_point(t, count) for t in _tables(data, "point")),
+    )
+    rows: list[Row] = []
+    totals: list[Total] = []
+    for entry in _tables(data, "table"):
+        rows += _rows(paper, entry)
+    for entry in _tables(data, "totals"):
+        numbers = row(f"totals: {entry['where']}", entry["values"])
+        limits, joint = _limits(paper, entry), _joint(paper, entry.get("joint"))
+        totals += [Total(entry["where"], entry.get("by", ""), joint, v, limits) for v in numbers]
+    means = tuple(
+        Claim(
+            where=f"{t['where']}, {t.get('by', '')}".rstrip(", "),
+            says=f"mean of {len(t['values'])} runs",
+            rule="mean",
+            of=row("totals", t["values"]),
+            equals=printed("totals: mean", t["mean"]),
+        )
+        for t in _tables(data, "totals")
+        if "mean" in t
+    )
+    return replace(paper, rows=tuple(rows), totals=tuple(totals), claims=means + paper.claims)
+
+
+def _variant(paper: Paper, table: dict[str, Any]) -> Paper:
+    if paper.waypoints is None or paper.halves is None:
+        raise InputError("variant: there are no waypoints to vary")
+    number = printed("variant: value", table["value"])
+    waypoints, half = paper.waypoints.copy(), paper.halves.copy()
+    at = (table["waypoint"] - 1, table["joint"] - 1)
+    # in the unit of the waypoints: the printed one tells it
+    unit = next(u for u in UNITS.values() if np.isclose(abs(waypoints[at]), abs(number.value) * u))
+    waypoints[at], half[at] = number.value * unit, number.half * unit
+    return replace(paper, name=table["name"], waypoints=waypoints, halves=half, claims=(), points=())
+
+
+def _rows(paper: Paper, table: dict[str, Any]) -> list[Row]:
+    """Rows of a table of joints, and the rule's vector made of them, if the paper goes on to that."""
+    where, by, limits = table["where"], table.get("by", ""), _limits(paper, table)
+    joints, times = table["joints"], table["times"]
+    totals = table.get("totals", [None] * len(joints))
+    if not len(joints) == len(times) == len(totals):
+        raise InputError(f"table: {where}: joints, times and totals differ in length")
+    rows = []
+    for joint, vector, total in zip(joints, times, totals, strict=True):
+        joint = None if joint == "all" else joint
+        at = where if joint is None else f"{where}, joint {joint}"
+        numbers = row(f"table: {at}", vector, paper.n_waypoints - 1)
+        sums = None if total is None else printed(f"table: {at}: total", total)
+        rows.append(Row(at, by, _joint(paper, joint), numbers, sums, limits))
+    if "longest" in table or "longest_where" in table:
+        at = table.get("longest_where", f"{where}, longest")
+        columns = zip(*(r.times for r in rows), strict=True)
+        longest = tuple(max(column, key=lambda number: number.value) for column in columns)
+        if "longest" in table:
+            longest = row(f"table: {where}: longest", table["longest"], paper.n_waypoints - 1)
+        total = printed(f"table: {where}: total", table["total"]) if "total" in table else None
+        rows.append(Row(at, by, None, longest, total, limits, tuple(rows)))
+    return rows
+
+
+def _stated(table: dict[str, Any], dof: int | None) -> Stated:
+    name = table["name"]
+    unit = UNITS[_one_of(f"limits: {name}: unit", table["unit"], UNITS)]
+    width = 1 if "joint" in table else dof
+    rows: list[Array] = []
+    for quantity in QUANTITIES[1:]:
+        raw = table.get(quantity)
+        if raw is None:
+            rows.append(np.full(width or len(rows[0]), np.inf))
+            continue
+        key = f"limits: {name}: {quantity}"
+        numbers = values(row(key, raw if isinstance(raw, list) else [raw], width))
+        if not (numbers > 0.0).all():
+            raise InputError(f"{key}: {numbers.min():g} is not positive")
+        rows.append(numbers * unit)
+        width = len(numbers)
+    position = np.tile([-np.inf, np.inf], (len(rows[0]), 1))
+    if "position" in table:
+        position = np.array(table["position"], dtype=np.float64) * unit
+    joint = table["joint"] - 1 if "joint" in table else None
+    return Stated(name, joint, np.stack(rows), position)
+
+
+def _claim(table: dict[str, Any]) -> Claim:
+    where = table["where"]
+    rule = _one_of(f"claim: {where}: rule", table["rule"], RULES)
+    of = row(f"claim: {where}: of", table["of"], 2 if rule in ("difference", "reduction") else None)
+    return Claim(where, table["says"], rule, of, printed(f"claim: {where}: equals", table["equals"]))
+
+
+def _point(table: dict[str, Any], count: int) -> Point:
+    where = table["where"]
+    if not 1 <= table["waypoint"] <= count:
+        raise InputError(f"point: {where}: waypoint {table['waypoint']} is not one of 1 to {count}")
+    metre = METRES[_one_of(f"point: {where}: length", table["length"], METRES)]
+    rpy = row(f"point: {where}: rpy", table["rpy"], 3) if "rpy" in table else None
+    position = row(f"point: {where}: position", table["position"], 3)
+    return Point(where, table["waypoint"] - 1, position, rpy, metre)
+
+
+def _limits(paper: Paper, table: dict[str, Any]) -> str | None:
+    name = table.get("limits")
+    if name is not None and name not in paper.stated:
+        raise InputError(
+            f"{table['where']}: limits {name!r} are not stated ({', '.join(paper.stated)})"
+        )
+    return name
+
+
+def _joint(paper: Paper, joint: Any) -> int | None:
+    if joint is None:
+        return None
+    dof = 0 if paper.waypoints is None else paper.waypoints.shape[1]
+    if not isinstance(joint, int) or not 1 <= joint <= dof:
+        raise InputError(f"joint: {joint!r} is not one of 1 to {dof}")
+    return joint - 1
+
+
+def _one_of(key: str, value: Any, known: Any) -> str:
+    if value not in known:
+        raise InputError(f"{key}: {value!r:.50} is not one of {', '.join(known)}")
+    return str(value)
+
+
+def _tables(data: dict[str, Any], key: str) -> list[dict[str, Any]]:
+    tables = data.get(key, [])
+    if not isinstance(tables, list) or not all(isinstance(t, dict) for t in tables):
+        raise InputError(f"{key}: expected tables [[{key}]]")
+    return tables

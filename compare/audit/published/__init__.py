@@ -1,0 +1,1 @@
+"""What the papers print, digit by digit, as data: one TOML per paper."""

@@ -1,0 +1,54 @@
+"""Times whose waypoints are not printed: what can be said of any waypoints at all (003)."""
+
+from __future__ import annotations
+
+import numpy as np
+
+from compare.audit.findings import Finding, number
+from compare.audit.paper import UNITS, Paper
+from formulations.arms import load_arm
+from formulations.problem import Array
+
+
+def unplaced_findings(paper: Paper) -> list[Finding]:
+    """Whether times without waypoints can be those of the stated limits."""
+    found = [
+        Finding(
+            paper.name, "missing", "waypoints",
+            f"{paper.n_waypoints} waypoints are used and none is printed: no time can be reproduced",
+        )
+    ]  # fmt: skip
+    if paper.arm is None:
+        return found
+    for total in paper.totals:
+        if total.limits is None:
+            continue
+        stated = paper.stated[total.limits]
+        most = longest_with_stops(paper, stated.derivatives)
+        if not total.value.low > most:
+            continue
+        other = "deg" if paper.unit == "rad" else "rad"
+        rescaled = longest_with_stops(paper, stated.derivatives * UNITS[other] / paper.angle)
+        text = (
+            f"{total.value} s is {number(total.value.value / most)} times the {most:.3g} s in which "
+            f"this arm, under {total.limits}, crosses the whole range of its joints in every segment, "
+            f"with a full stop at each waypoint: those limits do not explain it"
+        )
+        if rescaled >= total.value.high:
+            text += f"; read in {other} ({rescaled:.3g} s) they can"
+        found.append(Finding(paper.name, "other limits", total.table, text, False))
+    return found
+
+
+def longest_with_stops(paper: Paper, derivatives: Array) -> float:
+    """An upper bound on the best time through any waypoints whatever [s]: full speed, full stops.
+
+    Rest to rest over d takes d/V + V/A, or 2 sqrt(d/A) where V is not reached. Jerk is not asked for.
+    """
+    assert paper.arm is not None
+    position = load_arm(paper.arm).position
+    d = position[:, 1] - position[:, 0]
+    velocity, acceleration, _ = derivatives
+    reached = d * acceleration >= velocity**2
+    each = np.where(reached, d / velocity + velocity / acceleration, 2.0 * np.sqrt(d / acceleration))
+    return float((paper.n_waypoints - 1) * each.max())

@@ -1,0 +1,77 @@
+"""An arm: the printed DH table beside the one that fits its paper's own numbers."""
+
+from __future__ import annotations
+
+import tomllib
+from dataclasses import dataclass
+from functools import cache
+from importlib.resources import files
+from typing import Any
+
+import numpy as np
+
+from formulations.arms.kinematics import Chain
+from formulations.errors import InputError
+from formulations.problem import Array
+
+ARMS: tuple[str, ...] = tuple(
+    sorted(
+        entry.name.removesuffix(".toml")
+        for entry in files("formulations.arms").iterdir()
+        if entry.name.endswith(".toml")
+    )
+)
+
+METRES = {"m": 1.0, "mm": 1e-3}
+
+
+@dataclass(frozen=True)
+class Arm:
+    """An arm with rotary joints.
+
+    chain: the resolved table. printed: the paper's, as it stands there. position: joint limits (dof, 2)
+    [rad], infinite where none are known. notes: what was resolved, and how it fits.
+    """
+
+    name: str
+    title: str
+    source: str
+    notes: str
+    chain: Chain
+    printed: Chain
+    position: Array
+
+    @property
+    def dof(self) -> int:
+        """Number of joints."""
+        return len(self.chain.d)
+
+
+@cache
+def load_arm(name: str) -> Arm:
+    """The shipped arm of that name; InputError with the known names if there is none."""
+    if name not in ARMS:
+        raise InputError(f"arm: {name!r} is not known (known: {', '.join(ARMS)})")
+    data = tomllib.loads((files("formulations.arms") / f"{name}.toml").read_text("utf-8"))
+    resolved = data["resolved"]
+    unlimited = [[-np.inf, np.inf]] * len(resolved["d"])
+    return Arm(
+        name=data["name"],
+        title=data["title"],
+        source=data["source"],
+        notes=data["notes"].strip(),
+        chain=_chain(resolved),
+        printed=_chain(data["printed"]),
+        position=np.deg2rad(np.array(resolved.get("position", unlimited), dtype=np.float64)),
+    )
+
+
+def _chain(table: dict[str, Any]) -> Chain:
+    dof, metre = len(table["d"]), METRES[table["length"]]
+    return Chain(
+        d=np.array(table["d"], dtype=np.float64) * metre,
+        a=np.array(table["a"], dtype=np.float64) * metre,
+        alpha=np.deg2rad(np.array(table["alpha"], dtype=np.float64)),
+        offset=np.deg2rad(np.array(table.get("offset", [0.0] * dof), dtype=np.float64)),
+        sign=np.array(table.get("sign", [1.0] * dof), dtype=np.float64),
+    )

@@ -1,0 +1,99 @@
+"""Forward kinematics of a Denavit-Hartenberg chain (000 eq. 1-2; 001 eq. 1), and poses from angles.
+
+Standard convention: T = T1 T2 ... Tn, Ti = Rz(theta_i) Tz(d_i) Tx(a_i) Rx(alpha_i),
+theta_i = sign_i q_i + offset_i.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import numpy as np
+from numpy.typing import ArrayLike
+
+from formulations.problem import Array
+
+
+@dataclass(frozen=True)
+class Chain:
+    """A DH table. d, a: (dof,) in m; alpha, offset: (dof,) in rad; sign: (dof,) of +-1."""
+
+    d: Array
+    a: Array
+    alpha: Array
+    offset: Array
+    sign: Array
+
+    def theta(self, joints: ArrayLike) -> Array:
+        """DH angles of joint positions (..., dof) [rad]."""
+        return np.asarray(self.sign * np.asarray(joints, dtype=np.float64) + self.offset)
+
+    def frames(self, joints: ArrayLike) -> Array:
+        """Base frame and the frame behind each link, (..., dof + 1, 4, 4), lengths in m."""
+        theta = self.theta(joints)
+        c, s = np.cos(theta), np.sin(theta)
+        ca, sa = np.cos(self.alpha), np.sin(self.alpha)
+        link = np.zeros((*theta.shape, 4, 4))
+        rows = (  # 000 eq. 1
+            (c, -ca * s, sa * s, self.a * c),
+            (s, ca * c, -sa * c, self.a * s),
+            (0.0, sa, ca, self.d),
+            (0.0, 0.0, 0.0, 1.0),
+        )
+        for i, row in enumerate(rows):
+            for j, value in enumerate(row):
+                link[..., i, j] = value
+        frames = [np.broadcast_to(np.eye(4), link[..., 0, :, :].shape)]
+        for i in range(theta.shape[-1]):
+            frames.append(frames[-1] @ link[..., i, :, :])
+        return np.stack(frames, axis=-3)
+
+    def forward(self, joints: ArrayLike) -> Array:
+        """Pose of the tool, (..., 4, 4) with lengths in m, for joint positions (..., dof) [rad]."""
+        return np.asarray(self.frames(joints)[..., -1, :, :])
+
+    def jacobian(self, joints: ArrayLike) -> Array:
+        """Tool velocity and angular velocity per joint velocity, in the base frame, (6, dof)."""
+        frames = self.frames(joints)
+        axis, origin = frames[:-1, :3, 2] * self.sign[:, None], frames[:-1, :3, 3]
+        return np.concatenate([np.cross(axis, frames[-1, :3, 3] - origin), axis], axis=1).T
+
+
+def pose_of(position: ArrayLike, rpy: ArrayLike) -> Array:
+    """Pose (4, 4) from position (3,) [m] and roll, pitch, yaw (3,) [rad].
+
+    R = Rz(yaw) Ry(pitch) Rx(roll), the reading of 000 Table 4 that fits.
+    """
+    (cr, cp, cy), (sr, sp, sy) = np.cos(rpy), np.sin(rpy)
+    pose = np.eye(4)
+    pose[:3, :3] = [
+        [cy * cp, cy * sp * sr - sy * cr, cy * sp * cr + sy * sr],
+        [sy * cp, sy * sp * sr + cy * cr, sy * sp * cr - cy * sr],
+        [-sp, cp * sr, cp * cr],
+    ]
+    pose[:3, 3] = position
+    return pose
+
+
+def rpy_of(pose: Array) -> Array:
+    """Roll, pitch, yaw of poses (..., 4, 4), (..., 3) [rad]; yaw 0 where pitch is +-90 deg exactly."""
+    R = pose[..., :3, :3]
+    level = np.hypot(R[..., 0, 0], R[..., 1, 0])
+    lost = level < 1e-12
+    plain, locked = np.arctan2(R[..., 2, 1], R[..., 2, 2]), np.arctan2(-R[..., 1, 2], R[..., 1, 1])
+    roll = np.where(lost, locked, plain)
+    yaw = np.where(lost, 0.0, np.arctan2(R[..., 1, 0], R[..., 0, 0]))
+    return np.stack([roll, np.arctan2(-R[..., 2, 0], level), yaw], axis=-1)
+
+
+def error_of(wanted: Array, reached: Array) -> Array:
+    """From the pose reached to the one wanted, base frame, (6,): position [m], rotation [rad]."""
+    turn = wanted[:3, :3] @ reached[:3, :3].T
+    axis = 0.5 * np.array([turn[2, 1] - turn[1, 2], turn[0, 2] - turn[2, 0], turn[1, 0] - turn[0, 1]])
+    sine, cosine = float(np.linalg.norm(axis)), 0.5 * (float(np.trace(turn)) - 1.0)
+    if sine < 1e-9 and cosine < 0.0:  # half a turn: the axis is what I + R projects on
+        column = (turn + np.eye(3))[:, int(np.diag(turn).argmax())]
+        axis, scale = column / np.linalg.norm(column), np.pi
+    else:
+        scale = np.arctan2(sine, cosine) / sine if sine > 0.0 else 1.0
+    return np.concatenate([wanted[:3, 3] - reached[:3, 3], scale * axis])
