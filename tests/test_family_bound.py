@@ -650,7 +650,7 @@ CHAIN_FAULTS: dict[str, Callable[[Any], None]] = {
     "sums of the total alone": lambda c: (
         [c["events"][i].__setitem__(1, c["events"][i][1][:1]) for i in _letters(c, "L")] and None
     ),
-    "a multiplier that is not positive": lambda c: c["events"][_letters(c, "L")[0]][1][1].__setitem__(
+    "a multiplier that is not positive": lambda c: c["events"][_letters(c, "L")[-1]][1][-1].__setitem__(
         -1, (-1.0).hex()
     ),
     "a higher jerk limit": lambda c: [_scaled(c, "jerk", j, 1.02) for j in range(2)] and None,
