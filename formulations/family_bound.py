@@ -131,8 +131,8 @@ def family_bound(
     if chosen.name not in PROVERS:
         motions = every_motion(problem)
         events = motions.events(problem.moving_joints) if motions.seconds > simple else []
-        upper, found = _feasible(problem, found)
         seconds = max(simple, motions.seconds)
+        found, upper = _verified(problem, found)
         status = "proved" if upper <= seconds * (1.0 + gap) else f"undecided: {_EVERY_MOTION}"
         certificate = certificate_of(problem, seconds, events) if record else None
         return answer(seconds, found, upper, 0, status, certificate)
@@ -172,16 +172,6 @@ def displacement_bound(problem: Problem) -> float:
     return float((data.least / data.derivatives[0]).max(axis=1).sum() * (1.0 - 1e-13))
 
 
-def _feasible(problem: Problem, durations: Array) -> tuple[float, Array]:
-    """Total [s] and durations, stretched to feasibility; infinite if they do not pass the check."""
-    family = FAMILIES[problem.family]
-    stretched = durations * check(problem, family.trajectory(problem, durations)).stretch
-    if not (np.isfinite(stretched).all() and (stretched > 0.0).all()):
-        return np.inf, durations
-    verdict = check(problem, family.trajectory(problem, stretched))
-    return (verdict.seconds, stretched) if verdict.feasible else (np.inf, durations)
-
-
 def _refusal(problem: Problem) -> str:
     """Why no bound beyond the displacements can be proved; empty if one can."""
     data = data_of(problem)
@@ -192,6 +182,16 @@ def _refusal(problem: Problem) -> str:
     if (data.least[data.d != 0.0] < _SMALLEST).any():
         return f"a displacement is smaller than {_SMALLEST:g} rad"
     return ""
+
+
+def _verified(problem: Problem, durations: Array) -> tuple[Array, float]:
+    """Durations stretched to feasibility and their total [s], infinite if they do not pass the check."""
+    family = FAMILIES[problem.family]
+    stretched = durations * check(problem, family.trajectory(problem, durations)).stretch
+    if not (np.isfinite(stretched).all() and (stretched > 0.0).all()):
+        return durations, np.inf
+    verdict = check(problem, family.trajectory(problem, stretched))
+    return stretched, verdict.seconds if verdict.feasible else np.inf
 
 
 class _Pursuit:
@@ -250,6 +250,7 @@ class _Pursuit:
             if proof.proved:
                 return "proved"
             if improved:
+                self.restarts += 1
                 continue
             if not proof.stuck:
                 return "time limit"
@@ -279,7 +280,8 @@ class _Pursuit:
             if self.progress is not None:
                 self.progress(self.best.seconds if self.best else 0.0, self.boxes)
             clock = time.perf_counter()
-            if self.anytime and not proof.proved and clock - looked > _LOOK * cost:
+            looks = self.anytime and not proof.proved and self.restarts < _RESTARTS
+            if looks and clock - looked > _LOOK * cost:
                 if self._improve(proof.durations()):
                     return True
                 looked = time.perf_counter()
@@ -298,6 +300,6 @@ class _Pursuit:
 
     def _adopt(self, durations: Array) -> None:
         """Keep durations, stretched to feasibility, if they beat the best and pass the check."""
-        seconds, stretched = _feasible(self.problem, durations)
+        stretched, seconds = _verified(self.problem, durations)
         if seconds < self.upper:
             self.upper, self.durations = seconds, stretched

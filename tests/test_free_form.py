@@ -6,6 +6,7 @@ import math
 from dataclasses import replace
 from typing import Any
 
+import casadi
 import numpy as np
 import pytest
 from conftest import powers_of_ten, problems
@@ -27,7 +28,9 @@ from formulations import (
     load,
 )
 from formulations.free_form import FreeForm
+from formulations.free_form.arcs import Arcs
 from formulations.free_form.assembly import trajectory
+from formulations.free_form.program import Program
 from formulations.free_form.stop_and_go import stop_and_go
 from formulations.free_form.task import Task
 from formulations.references.ruckig_ import rest_to_rest
@@ -285,6 +288,31 @@ def test_position_limits_are_kept_between_waypoints() -> None:
     assert free_form(Problem.of(points, far), tolerance=1e-5).seconds == pytest.approx(
         wide.seconds, rel=1e-5
     )
+
+
+@pytest.mark.parametrize("order", [2, 3])
+def test_guarding_rows_enclose_the_position_at_all_times(order: int) -> None:
+    rng = np.random.default_rng(order)
+    limits = Limits.of(1.0, 1.0, 1.0 if order == 3 else math.inf, (-5.0, 5.0), dof=1)
+    task = Task(Problem.of([[0.0], [1.0]], limits), Conditions(end_velocity=np.array([0.5])))
+    program = Program(task, (4, 4), free=True, second=1.0, guarded=frozenset({(0, 0)}))
+    nlp = program.symbols.nlp
+    rows = casadi.Function("rows", [nlp["x"], nlp["p"]], [nlp["g"]])
+    kinds = [kind for kind, _, n in program.symbols.kinds for _ in range(n)]
+    for _ in range(100):
+        h, tops = rng.uniform(0.1, 1.0, (1, 4)), rng.normal(size=(1, 4))
+        first = Arcs(order, h, tops, np.zeros((2, 2)))
+        arcs = replace(first, states=first.nodes[:, 0, [0, -1]].T)
+        x = np.concatenate([[h.sum()], h[0], *(nodes[0] for nodes in arcs.nodes[: order - 1])])
+        found = np.array(rows(x, program.parameters)).ravel()[[k == "position" for k in kinds]]
+        tau = np.linspace(0.0, 1.0, 200)[:, None] * h[0]
+        v, a = arcs.nodes[:, 0, :-1]
+        a, jerk = (a, tops[0]) if order == 3 else (tops[0], np.zeros(4))
+        steps = tau * (v + tau * (a / 2.0 + tau * jerk / 6.0))
+        path = steps + np.concatenate([[0.0], np.cumsum(steps[-1])[:-1]])
+        ends = (0.0, path[-1, -1])
+        assert max(*found, *ends) >= path.max() - 1e-12
+        assert min(*found, *ends) <= path.min() + 1e-12
 
 
 # --- what holds the time up -------------------------------------------------------------------------
