@@ -423,7 +423,7 @@ def lost_in_the_chain(problem: Problem, points: Any, L: float, shrink: float) ->
 def test_no_feasible_quintic_is_lost_by_a_discard_or_a_cut() -> None:
     rng = np.random.default_rng(8)
     total = mutants = noticed = 0
-    for i in range(9):
+    for i in range(6):
         n = int(rng.integers(1, 5))
         still = int(rng.integers(n)) if i % 4 == 3 else -1
         kind = ("V", "VA", "VAJ")[i % 3]
@@ -432,7 +432,7 @@ def test_no_feasible_quintic_is_lost_by_a_discard_or_a_cut() -> None:
         if i % 3 == 2:  # with position limits that this motion keeps
             excess = FAMILIES["quintic"].position_excess(closed(problem), base[None])[0]
             problem = closed(problem, float(excess) + 0.01)
-        L = float(base.sum()) * (1.0 + 1e-9, 1.001, 1.03)[i // 3]
+        L = float(base.sum()) * (1.0 + 1e-9, 1.001, 1.03)[i // 2]
         points = feasible_points(problem, L, base, rng)
         total += len(points)
         assert lost_in_the_chain(problem, points, L, 1.0) == 0
@@ -440,8 +440,8 @@ def test_no_feasible_quintic_is_lost_by_a_discard_or_a_cut() -> None:
         points = feasible_points(problem, L, base, rng)
         mutants += len(points) > 0
         noticed += lost_in_the_chain(problem, points, L, 0.98) > 0
-    assert total > 2000
-    assert noticed == mutants > 5  # with limits that are 2 % too low the test does fail
+    assert total > 1500
+    assert noticed == mutants > 3  # with limits that are 2 % too low the test does fail
 
 
 def closed(problem: Problem, margin: float = 0.0) -> Problem:
