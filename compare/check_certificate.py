@@ -17,6 +17,8 @@ from __future__ import annotations
 import argparse
 import json
 import sys
+from bisect import bisect_left, bisect_right
+from itertools import pairwise
 from math import inf, isfinite
 from pathlib import Path
 from typing import Any
@@ -24,7 +26,7 @@ from typing import Any
 CERTIFIED, REFUSED, BAD_INPUT = 0, 1, 2
 FORMAT = "timebound certificate 1"
 LARGEST_FILE, MOST_EVENTS, MOST_SEGMENTS, MOST_JOINTS = 400_000_000, 3_000_000, 50, 50
-MOST_ROWS, MOST_CUTS, MOST_TRIPLES = 20_000, 1_000_000, 5_000_000
+MOST_ROWS, MOST_CUTS, MOST_TRIPLES, MOST_WORK = 20_000, 1_000_000, 5_000_000, 1_000_000_000
 BITS = 128
 
 R: Any = None  # flint's arb, once it is known to be there
@@ -677,7 +679,7 @@ def least_on(a: Any, b: Any, c: Any, lo: Any, hi: Any) -> Any:
     pieces = 8 if c > 0 else 1
     ends = [1 / hi + (1 / lo - 1 / hi) * i / pieces for i in range(pieces + 1)]
     values = []
-    for p, q in zip(ends, ends[1:], strict=False):
+    for p, q in pairwise(ends):
         slope = (b - c * (p + q)).lower()
         at_p, at_q = a / p + slope * p, a / q + slope * q
         value = least(at_p, at_q)
@@ -691,41 +693,38 @@ def least_on(a: Any, b: Any, c: Any, lo: Any, hi: Any) -> Any:
 class Quintic:
     """Variables x_k = 1/T_k; each condition ties x_k to its two neighbours alone.
 
-    The domains are cut into cells. A triple of cells of neighbouring variables stands for all paths
-    through it, a cell of each variable; a motion lies on a path. A triple is discarded if a condition is
-    violated on all of it, or if on every path through it a weighted sum of conditions is positive. The
-    proof holds if some variable has no triple left. Events: C cuts the cells of a segment, R gives rows
-    that are tried one by one, L rows of a sum.
+    The domains are cut into cells; a path takes a cell of each variable, and a motion lies on a path. A
+    triple of cells of neighbouring variables stands for all paths through it. It is discarded if a
+    condition is violated on all of it, or if a weighted sum of conditions is positive on every path
+    through it. The proof holds if some variable has no triple left. Events: C cuts the cells of a
+    segment, R gives rows that are tried one by one, L the rows of a sum.
     """
 
     PIECE = ([0, 0, 0, 10, -15, 6], [0, 1, 0, -6, 8, -3], [0, 0, 0, -4, 7, -3])
-    Triple = tuple[int, int, int]
 
     def __init__(self, claim: Claim) -> None:
         self.claim, self.n = claim, claim.n
         t = claim.shortest()
         total = sum(t, R(0))
         self.void = total > claim.L
-        one = [(R(1), R(1))]
         # a segment on which nothing moves may vanish, and no condition depends on it
-        self.counts = [False, *(not x == 0 for x in t), False]
-        domain = (
-            []
-            if self.void
-            else [[((1 / (claim.L - total + x)).lower(), (1 / x).upper())] if x > 0 else one for x in t]
-        )
-        self.cells = [one, *domain, one]
-        self.triples: list[list[Any]] = [[(0, 0, 0)] for _ in range(self.n)]
-        self.discards = 0
+        moves = [not all(x == 0 for x in row) for row in claim.d]
+        self.counts = [False, *moves, False]
+        self.cells = [[(R(1), R(1))] for _ in range(self.n + 2)]
+        for k, x in enumerate(t):
+            if moves[k] and not self.void:
+                self.cells[k + 1] = [((1 / (claim.L - total + x)).lower(), (1 / x).upper())]
+        self.triples: list[list[tuple[int, ...]]] = [[(0, 0, 0)] for _ in range(self.n)]
+        self.discards = self.work = 0
 
     def replay(self) -> int:
         """Verify every event; returns the number of discards."""
         for count, raw in enumerate(self.claim.events, 1):
             event = items(raw, 2, 3)
+            need(self.work <= MOST_WORK, f"event {count}: too much work")
             if event[0] == "C" and len(event) == 3:
-                self.cut(
-                    index(event[1], self.n) + 1, [number(x) for x in items(event[2], 0, MOST_CUTS)]
-                )
+                edges = [number(x) for x in items(event[2], 0, MOST_CUTS)]
+                self.cut(index(event[1], self.n) + 1, edges)
             elif event[0] in ("R", "L") and len(event) == 2:
                 rows = [self.claim.row(row) for row in items(event[1], 0, MOST_ROWS)]
                 if event[0] == "R":
@@ -735,17 +734,16 @@ class Quintic:
                     self.discard_sum(rows)
             else:
                 raise BadInput(f"event {count}: unknown event {raw!r:.20}")
-            need(sum(map(len, self.triples)) <= MOST_TRIPLES, f"event {count}: too many cells")
         need(not all(self.triples), "the events end before every path has ended")
         return self.discards
 
     def condition(self, row: Any) -> tuple[Any, ...]:
-        """Segment, coefficients of x_{k-1}, x_k, x_{k+1}, limit, and the power of x_k it stands over."""
+        """Segment, coefficients of x_{k-1}, x_k, x_{k+1}, limit, and the power of x_k under it."""
         need(row[0] == "p", "a row this family does not have")
         _, _, j, k, sign, order, s = row
         d = [R(0), *(each[j] for each in self.claim.d), R(0)][k : k + 3]
         here, start, end = (sign * derivative(part, order, s) for part in self.PIECE)
-        before, after = (d[1] > 0 and x > 0 or d[1] < 0 and x < 0 for x in (d[0], d[2]))
+        before, after = ((d[1] > 0 and x > 0) or (d[1] < 0 and x < 0) for x in (d[0], d[2]))
         b, e = (start / 2 if before else R(0)), (end / 2 if after else R(0))
         own = d[1] * (here + b + e)
         if order == 0:
@@ -764,6 +762,7 @@ class Quintic:
             for shift, part in ((0, b), (2, e))
         ]
         own = [least(*(a * x - limit / x**power for x in ends)).lower() for ends in self.cells[k + 1]]
+        self.work += len(self.triples[k])
         stay = [t for t in self.triples[k] if not shares[0][t[0]] + own[t[1]] + shares[1][t[2]] > 0]
         self.discards += len(self.triples[k]) - len(stay)
         self.triples[k] = stay
@@ -771,6 +770,7 @@ class Quintic:
     def discard_sum(self, rows: Any) -> None:
         """Discard the triples through which the weighted sum is positive on every path."""
         n = self.n
+        self.work += sum(map(len, self.triples))
         const, nu = R(0), R(0)
         a, held = [R(0)] * (n + 2), [[R(0)] * (n + 2) for _ in range(3)]
         for row in rows:
@@ -783,11 +783,9 @@ class Quintic:
                 a[k + shift] += m * part
             held[power][k + 1] += m * limit
         const -= sum(held[0], R(0))
+        b = [(nu if counts else 0) - x for counts, x in zip(self.counts, held[1], strict=True)]
         phi = [
-            [
-                least_on(a[k], (nu if self.counts[k] else R(0)) - held[1][k], held[2][k], *ends)
-                for ends in cells
-            ]
+            [least_on(a[k], b[k], held[2][k], *ends) for ends in cells]
             for k, cells in enumerate(self.cells)
         ]
         ahead: list[dict[tuple[int, int], Any]] = [
@@ -803,7 +801,7 @@ class Quintic:
         behind = {(y, 0): R(0) for y in range(len(phi[n]))}
         for k in range(n - 1, -1, -1):
             least_rest: dict[tuple[int, int], Any] = {}
-            stay = []
+            stay: list[tuple[int, ...]] = []
             for x, y, z in self.triples[k]:
                 if (x, y) in ahead[k] and (y, z) in behind:
                     value = behind[y, z] + phi[k + 2][z]
@@ -818,19 +816,19 @@ class Quintic:
         """Cut the cells of padded variable k at the edges inside them."""
         need(self.counts[k], "a cut of a segment on which nothing moves")
         edges.sort(key=float)
+        places = [float(x) for x in edges]
         cells: list[Any] = []
         children: list[range] = []
         for lo, hi in self.cells[k]:
-            inside = [lo, *(x for x in edges if lo < x < hi), hi]
+            near = edges[bisect_left(places, float(lo)) : bisect_right(places, float(hi))]
+            inside = [lo, *(x for x in near if lo < x < hi), hi]
             children.append(range(len(cells), len(cells) + len(inside) - 1))
-            cells += zip(inside, inside[1:], strict=False)
+            cells += pairwise(inside)
         self.cells[k] = cells
         for middle in range(max(k - 2, 0), min(k + 1, self.n)):
             place = k - middle
-            need(
-                sum(len(children[t[place]]) for t in self.triples[middle]) <= MOST_TRIPLES,
-                "too many cells",
-            )
+            size = sum(len(children[t[place]]) for t in self.triples[middle])
+            need(size <= MOST_TRIPLES, "too many cells")
             self.triples[middle] = [
                 (*t[:place], child, *t[place + 1 :])
                 for t in self.triples[middle]
@@ -873,8 +871,7 @@ class EveryMotion:
                     if not (p[i] == 0 and p[i + 1] == 0):
                         w[k] += self.claim.limit(2, j) * (abs(p[i]) + abs(p[i + 1])) / (2 * cells)
                     turn = p[i + 1] - p[i] - (mu[k + 1] - mu[k]) / cells
-                    if not turn == 0:
-                        const += self.claim.limit(1, j) * abs(turn)
+                    const += self.claim.limit(1, j) * abs(turn)
         need(all(x >= 0 for x in a), "a segment gains from taking no time")
         need(all(x <= 1 for x in w), "a segment gains from taking long")
         total = sum((2 * (x * (1 - y)).sqrt() for x, y in zip(a, w, strict=True)), R(0)) - const

@@ -40,8 +40,8 @@ PROVERS: dict[str, Prover] = {
     "quintic": quintic.begin,
 }
 
-# of a B-spline each piece depends on every duration; enclosures of it are of use only on boxes so narrow
-# that there are too many
+# of a B-spline each piece depends on every duration: enclosures are of use only on boxes so narrow that
+# there are too many
 _EVERY_MOTION = "what is proved holds for every motion through the waypoints, not for B-splines alone"
 
 _STRAIGHT = 0.1  # share of the time limit for going straight to the gap that was asked for
@@ -49,7 +49,7 @@ _SLICE = 0.02  # s between looks at the clock
 _SMALLEST = 1e-150  # rad; squares and quotients of smaller displacements leave the range of floats
 _RESTARTS = 30  # better basins the proof may find
 _BETTER = 1e-12  # relative; less is rounding
-_LOOK = 9.0  # times what the NLP took, before it is asked again
+_LOOK, _FIRST_LOOK = 9.0, 0.03  # times what the NLP took [s], before it is asked again; at first
 
 
 @dataclass(frozen=True)
@@ -131,7 +131,8 @@ def family_bound(
     if chosen.name not in PROVERS:
         motions = every_motion(problem)
         events = motions.events(problem.moving_joints) if motions.seconds > simple else []
-        seconds, upper = max(simple, motions.seconds), float(found.sum())
+        seconds = max(simple, motions.seconds)
+        found, upper = _verified(problem, found)
         status = "proved" if upper <= seconds * (1.0 + gap) else f"undecided: {_EVERY_MOTION}"
         certificate = certificate_of(problem, seconds, events) if record else None
         return answer(seconds, found, upper, 0, status, certificate)
@@ -181,6 +182,16 @@ def _refusal(problem: Problem) -> str:
     if (data.least[data.d != 0.0] < _SMALLEST).any():
         return f"a displacement is smaller than {_SMALLEST:g} rad"
     return ""
+
+
+def _verified(problem: Problem, durations: Array) -> tuple[Array, float]:
+    """Durations stretched to feasibility and their total [s], infinite if they do not pass the check."""
+    family = FAMILIES[problem.family]
+    stretched = durations * check(problem, family.trajectory(problem, durations)).stretch
+    if not (np.isfinite(stretched).all() and (stretched > 0.0).all()):
+        return durations, np.inf
+    verdict = check(problem, family.trajectory(problem, stretched))
+    return stretched, verdict.seconds if verdict.feasible else np.inf
 
 
 class _Pursuit:
@@ -257,7 +268,7 @@ class _Pursuit:
 
         For one, the NLP looks near what an anytime attempt cannot discard, a tenth of the time.
         """
-        slice_, looked, cost = 32, time.perf_counter(), 0.0
+        slice_, looked, cost = 32, time.perf_counter(), _FIRST_LOOK
         while not (proof.proved or proof.stuck):
             before, clock = proof.boxes, time.perf_counter()
             if clock >= self.deadline:
@@ -288,10 +299,6 @@ class _Pursuit:
 
     def _adopt(self, durations: Array) -> None:
         """Keep durations, stretched to feasibility, if they beat the best and pass the check."""
-        factor = check(self.problem, self.family.trajectory(self.problem, durations)).stretch
-        stretched = durations * factor
-        if not (np.isfinite(stretched).all() and (stretched > 0.0).all()):
-            return
-        verdict = check(self.problem, self.family.trajectory(self.problem, stretched))
-        if verdict.feasible and verdict.seconds < self.upper:
-            self.upper, self.durations = verdict.seconds, stretched
+        stretched, seconds = _verified(self.problem, durations)
+        if seconds < self.upper:
+            self.upper, self.durations = seconds, stretched

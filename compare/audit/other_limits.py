@@ -8,7 +8,6 @@ its own peaks. Whatever is then said of another result, that it is too fast for 
 from __future__ import annotations
 
 from collections.abc import Iterable, Sequence
-from typing import Any
 
 import numpy as np
 
@@ -16,53 +15,65 @@ from compare.audit.findings import Finding, amount, number, percent
 from compare.audit.minima import crossing_times, impossible, minimum, with_limits
 from compare.audit.motions import Motion, limits_told
 from compare.audit.paper import Paper, Total
-from formulations import Problem
+from formulations import FamilyBound, Problem
 from formulations.problem import Array
 from formulations.trajectory import QUANTITIES
 
 _SLOWER = 0.02  # at least so far above the optimum of the stated limits
 _FITS = 0.001  # at most so far above that of the implied ones
+_NEEDED = 0.005  # at most so far above the optimum without a limit that is not needed
 _BELOW = 0.02  # at least one of these is so far below the stated one
 
 
 def fits_other_limits(motion: Motion) -> Finding | None:
     """Stated limits were not in force: far above their optimum, next to the optimum of lower ones."""
+    limits = fitted(motion)
+    if limits is None or motion.optimum is None:
+        return None
     paper, stated = motion.paper, motion.problem.limits.derivatives
+    upper, fitting = motion.optimum.upper, minimum(with_limits(motion.problem, limits)).upper
+    told = "; ".join(
+        f"{QUANTITIES[order + 1]} {amount(paper, float(motion.peaks[0].printed[order]), order + 1)} "
+        f"(in round numbers {number(float(motion.rounded[order, 0]) / paper.angle)}) where "
+        f"{number(float(stated[order, 0]) / paper.angle)} is stated"
+        for order in range(3)
+        if limits[order, 0] < stated[order, 0]
+    )
+    gap = max(motion.total / fitting - 1.0, 0.0)
+    text = (
+        f"{motion.total:.4f} s is {percent(motion.total / upper - 1.0)} above the optimum under "
+        f"{motion.row.limits} ({upper:.4f} s), but within {percent(gap)} of the optimum ({fitting:.4f} "
+        f"s) under the peak it reaches: {told}"
+    )
+    numbers = {"seconds": motion.total, "stated": upper, "fitting": fitting}
+    return Finding(paper.name, "other limits", motion.row.where, text, False, numbers)
+
+
+def fitted(motion: Motion) -> Array | None:
+    """Limits (3, 1) of one joint that fit a motion where the stated ones do not, as few as will do.
+
+    None where the stated ones fit, or no others.
+    """
+    stated = motion.problem.limits.derivatives
     # several joints with limits of their own fit anything; and a proof costs less than an optimum
     near = motion.seconds[0] / (1.0 + _SLOWER)
     if motion.row.joint is None or impossible(motion.problem, 0.0 * motion.halves, near):
         return None
     lower = motion.rounded < stated * (1.0 - _BELOW)
     lower &= np.isfinite(stated) & (motion.most < stated)
-    if not lower.any() or motion.optimum is None:
+    if not lower.any() or motion.optimum is None or not near > motion.optimum.upper:
         return None
-    upper = motion.optimum.upper
-    if not near > upper:
+    if not motion.implied_gap <= _FITS:
         return None
-    fitting, gap = motion.implied_optimum, motion.implied_gap
-    if not gap <= _FITS:
-        return None
-    text = (
-        f"{motion.total:.4f} s is {percent(motion.total / upper - 1.0)} above the optimum under "
-        f"{motion.row.limits} ({upper:.4f} s), but within {percent(max(gap, 0.0))} of the optimum "
-        f"under the peaks it reaches: {_told(motion, lower)}"
-    )
-    numbers = {"seconds": motion.total, "stated": upper, "fitting": fitting.upper}
-    return Finding(paper.name, "other limits", motion.row.where, text, False, numbers)
-
-
-def _told(motion: Motion, lower: Any) -> str:
-    """Peaks that lie below stated limits, per joint and derivative."""
-    paper, stated = motion.paper, motion.problem.limits.derivatives
-    parts = []
-    for order, j in np.argwhere(lower):
-        k = int(order) + 1
-        parts.append(
-            f"{QUANTITIES[k]} {amount(paper, float(motion.peaks[j].printed[order]), k)} (in round "
-            f"numbers {number(float(motion.rounded[order, j]) / paper.angle)}) where "
-            f"{number(float(stated[order, j]) / paper.angle)} is stated"
-        )
-    return "; ".join(parts)
+    limits = np.where(lower, motion.implied, stated)
+    for order in np.flatnonzero(lower[:, 0]):
+        fewer = limits.copy()
+        fewer[order] = stated[order]
+        if not (fewer < stated).any():
+            continue
+        if motion.total <= minimum(with_limits(motion.problem, fewer)).upper * (1.0 + _NEEDED):
+            limits = fewer
+    return limits
 
 
 def total_findings(paper: Paper, totals: Sequence[Total]) -> list[Finding]:
@@ -99,9 +110,10 @@ def table_findings(motions: Sequence[Motion], totals: Sequence[Total]) -> list[F
     """Results that are faster than the limits allow which another result of the same joint fits."""
     found = []
     for motion in motions:
-        if motion.row.of or motion.breaks or not _tells(motion):
+        limits = None if motion.row.joint is None or motion.breaks else in_force(motion)
+        if limits is None:
             continue
-        problem = with_limits(motion.problem, in_force(motion))
+        problem = with_limits(motion.problem, limits)
         bound = None
         mine = (motion.row.joint, motion.row.limits)
         for group in _tables_of(t for t in totals if (t.joint, t.limits) == mine):
@@ -110,39 +122,42 @@ def table_findings(motions: Sequence[Motion], totals: Sequence[Total]) -> list[F
                 bound = bound or minimum(problem)
                 best = min(fast, key=lambda total: total.value.value)
                 which = f"{len(fast)} of {len(group)} results, the best" if len(group) > 1 else ""
-                found.append(_contradiction(motion, best.table, best.value.value, bound.seconds, which))
+                found.append(_contradiction(motion, limits, best.table, best.value.value, bound, which))
         for other in motions:
             if other is motion or (other.row.joint, other.row.limits) != mine or other.row.of:
                 continue
             if impossible(problem, motion.halves, other.seconds[1]):
                 bound = bound or minimum(problem)
-                found.append(_contradiction(motion, other.row.where, other.total, bound.seconds))
+                found.append(_contradiction(motion, limits, other.row.where, other.total, bound))
     return found
 
 
-def _tells(motion: Motion) -> bool:
-    """Whether the limits a motion implies are those it was made under, by all that its numbers say."""
-    if motion.stated:
-        return fits_other_limits(motion) is not None
-    return motion.implied_gap <= _FITS
+def in_force(motion: Motion) -> Array | None:
+    """Limits (3, 1) that one joint's motion was made under, by all that its numbers say, to two digits.
 
-
-def in_force(motion: Motion) -> Array:
-    """Limits that a motion fits, to two digits and never above the stated ones, (3, dof)."""
-    return np.minimum(motion.rounded, motion.problem.limits.derivatives)
+    None where its numbers do not say.
+    """
+    if not motion.stated:
+        return motion.rounded if motion.implied_gap <= _FITS else None
+    limits, stated = fitted(motion), motion.problem.limits.derivatives
+    return (
+        None
+        if limits is None
+        else np.where(limits < stated, np.minimum(motion.rounded, stated), stated)
+    )
 
 
 def _contradiction(
-    motion: Motion, where: str, seconds: float, least: float, which: str = ""
+    motion: Motion, limits: Array, where: str, seconds: float, bound: FamilyBound, which: str = ""
 ) -> Finding:
-    paper, limits = motion.paper, in_force(motion)
+    least = bound.seconds
     text = (
         f"{which} {seconds:.4f} s, {percent(1.0 - seconds / least)} below the certified minimum of "
         f"{least:.4f} s for {limits_told(motion, limits)}, the limits that {motion.row.where} fits: "
         f"not made under those"
     ).strip()
     numbers = {"seconds": seconds, "minimum": least, "gap": seconds / least - 1.0}
-    return Finding(paper.name, "tables", where, text, numbers=numbers)
+    return Finding(motion.paper.name, "tables", where, text, numbers=numbers)
 
 
 def _tables_of(totals: Iterable[Total]) -> list[list[Total]]:

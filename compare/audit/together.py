@@ -8,7 +8,7 @@ import numpy as np
 
 from compare.audit.findings import Finding, amount, number
 from compare.audit.motions import ROOTS, Motion
-from compare.audit.other_limits import fits_other_limits, in_force
+from compare.audit.other_limits import in_force
 from formulations.trajectory import QUANTITIES, TOLERANCE
 
 
@@ -20,8 +20,8 @@ def rule_findings(motion: Motion, rows: Sequence[Motion]) -> list[Finding]:
         assert joint is not None
         if one.breaks:
             return []  # then there is nothing to keep
-        other = not one.stated or fits_other_limits(one) is not None
-        limits[:, joint] = (in_force(one) if other else one.problem.limits.derivatives)[:, 0]
+        other = in_force(one) if one.stated else one.rounded
+        limits[:, joint] = (one.problem.limits.derivatives if other is None else other)[:, 0]
     need = (motion.least / limits) ** ROOTS
     if not need.max() > 1.0 + TOLERANCE:
         return []
@@ -59,6 +59,9 @@ def ranking_findings(motions: Sequence[Motion]) -> list[Finding]:
             after = ", ".join(
                 f"{m.row.by} {m.honest:.4g} s" for m in sorted(group, key=lambda m: m.honest)
             )
-            text = f"published: {before}; slowed down until {limits} is kept: {after}"
+            text = (
+                f"published: {before}; slowed down until speed, acceleration and jerk keep {limits}: "
+                f"{after}"
+            )
             found.append(Finding(motions[0].paper.name, "ranking", str(limits), text))
     return found

@@ -9,8 +9,8 @@ them. Triples are discarded, never paths:
             necessary: the least sum before and after each pair of cells follows from neighbour to
             neighbour (dynamic programming), so n variables cost n times what one costs
 
-If no triple of some variable is left, no point of the domain fulfils the conditions. Variables are padded
-by one at each end that has a single cell. All sums are rounded to the safe side.
+If no triple of some variable is left, no point of the domain fulfils the conditions. The variables are
+padded by one at each end that has a single cell. All sums are rounded to the safe side.
 """
 
 from __future__ import annotations
@@ -65,8 +65,8 @@ class Chain:
     def discard_sum(self, shares: list[Array], const: float, margin: float) -> tuple[float, int]:
         """Discard triples through which no path has a sum at most margin.
 
-        shares: least phi on the cells of each variable, padded; const: is added. Returns a bound
-        of the least sum before, and how many triples went. The least path by this sum is ``least_path`` until the next.
+        shares: least phi on the cells of each variable, padded; const: is added. Returns a lower bound
+        of all sums before, and how many triples went. ``least_path`` is the least by this sum.
         """
         sizes = sum(float(np.abs(share).max()) for share in shares) + abs(const)
         threshold = margin + float(sum_error(2 * self.n + 6, sizes))
@@ -95,15 +95,11 @@ class Chain:
         """Ends (n+2,) of the cells of the path with the least of the last sum, and of the padding."""
         cells = [0]
         for k, (triples, least) in enumerate(zip(self.triples, self._least, strict=True)):
-            on = (
-                (triples[0] == cells[-2]) & (triples[1] == cells[-1])
-                if k
-                else np.ones(len(least), bool)
-            )
-            best = int(np.where(on, least, np.inf).argmin())
-            if not k:
-                cells.append(int(triples[1, best]))
-            cells.append(int(triples[2, best]))
+            if k:
+                on = (triples[:2] == np.array(cells[-2:])[:, None]).all(axis=0)
+                least = np.where(on, least, np.inf)
+            best = triples[:, least.argmin()].tolist()
+            cells += best[1:] if not k else best[2:]
         return (
             np.array([lo[cell] for lo, cell in zip(self.lo, cells, strict=True)]),
             np.array([hi[cell] for hi, cell in zip(self.hi, cells, strict=True)]),
@@ -129,9 +125,8 @@ class Chain:
             child = children[triples[position]]
             triples, child = triples[:, child[:, 1] > 0], child[child[:, 1] > 0]
             copies = np.repeat(np.arange(triples.shape[1]), child[:, 1])
-            offset = np.arange(len(copies)) - np.repeat(
-                np.cumsum(child[:, 1]) - child[:, 1], child[:, 1]
-            )
+            ends = np.cumsum(child[:, 1])
+            offset = np.arange(len(copies)) - np.repeat(ends - child[:, 1], child[:, 1])
             triples = triples[:, copies]
             triples[position] = child[copies, 0] + offset
             self.triples[middle] = triples

@@ -1,20 +1,20 @@
 """A lower bound that holds for every motion through the waypoints, from rest to rest.
 
-Of a joint, let q be its motion, m(t) linear on each segment with values mu_0 .. mu_n at the waypoints, and
-p(t) any function of bounded variation. As q' vanishes at both ends,
+Of a joint, let q be its motion, m(t) linear on each segment with values mu_0 .. mu_n at the waypoints,
+and p(t) any function of bounded variation. As q' vanishes at both ends,
 
     sum_k (mu_{k-1} - mu_k) d_k / T_k  =  int m q''  =  int p q'' + int (p - m)' q'
                                       <=  A int |p| + V int |(p - m)'|.
 
-With p linear on N equal cells of each segment, values p_i at their ends, int |p| over segment k is at most
-T_k w_k, w_k the mean of |p|, and the last integral is sum |p_i - p_{i-1} - (mu_k - mu_{k-1}) / N|, whatever
-the durations. Summed over the joints, the total time is at least
+Let p be linear on N equal cells of each segment, p_i at their ends. Then int |p| over segment k is at
+most T_k w_k, w_k the mean of |p|, and the last integral is sum |p_i - p_{i-1} - (mu_k - mu_{k-1}) / N|
+whatever the durations. Summed over the joints, the total time is at least
 
     sum_k T_k + a_k / T_k - w_k T_k - const  >=  sum_k 2 sqrt(a_k (1 - w_k)) - const
 
 for any mu, p that leave all a_k >= 0, w_k <= 1. The best ones solve a convex program, the dual of the
-fastest motion under velocity and acceleration limits; nothing rests on its solution being exact. Jerk and
-position limits are left out.
+fastest motion under velocity and acceleration limits; nothing rests on its solution being exact. Jerk
+and position limits are left out.
 """
 
 from __future__ import annotations
@@ -74,9 +74,8 @@ def proved(problem: Problem, mu: Array, p: Array) -> float:
     b = down(1.0 - _shares(p, acceleration, n))
     cells = (len(p) - 1) // n
     even = times(steps, (down(1.0 / cells), up(1.0 / cells)))
-    turns = plus(
-        _minus(p[1:], p[:-1]), (np.repeat(even[0], cells, axis=0), np.repeat(even[1], cells, axis=0))
-    )
+    lo, hi = (np.repeat(end, cells, axis=0) for end in even)
+    turns = plus(_minus(p[1:], p[:-1]), (lo, hi))
     held = up(up(np.maximum(-turns[0], turns[1])) * velocity)
     if not ((a >= 0.0).all() and (b >= 0.0).all()):
         return 0.0

@@ -1,7 +1,7 @@
 """Interval arithmetic on whole arrays, rounded outward by the lemma in ``outward``.
 
-An interval is a pair (lo, hi) of arrays that broadcast. Sums of many floats use a second lemma: m floats
-added in any order err by at most 2 m u times the sum of their sizes (u = 2^-53, m u < 0.01).
+An interval is a pair (lo, hi) of arrays that broadcast. Sums of many floats use a second lemma: m
+floats added in any order err by at most 2 m u times the sum of their sizes (u = 2^-53, m u < 0.01).
 """
 
 from __future__ import annotations

@@ -36,8 +36,8 @@ class Setup:
     advance(depth, max_boxes, counts, log) -> (depth, stuck), see ``search``; durations(depth): those at
     the middle of the next box, (n_segments,) [s]. depth 0: L is below the sum of the least durations.
     impossible: why no search can prove L. short: with a middle segment of 3-5-3 on which nothing moves,
-    tau and the discards for T2 <= tau (``three_five_three_short``). anytime: of a prover whose unfinished
-    attempts prove something too.
+    tau and the discards for T2 <= tau (``three_five_three_short``). anytime: of a prover whose
+    unfinished attempts prove something too.
     """
 
     n_variables: int

@@ -7,14 +7,14 @@ m >= 0 of any conditions the Lagrangian is separable,
     sum_k T_k - L + sum m g  =  const + sum_k phi_k(x_k),
     phi_k(x) = a_k x + (1 - w2_k) / x - w3_k / x^2,
 
-and one that is positive everywhere proves the bound at once. Where none is, the domain of each x_k is cut
-into cells, and a chain of cells is searched by dynamic programming (chain): rows alone discard triples of
-neighbouring cells, Lagrangians whole bundles of paths. The multipliers come from linear programs about
-the best motion known and about the path that is least so far (quintic_multipliers).
+and one that is positive everywhere proves the bound at once. Where none is, the domain of each x_k is
+cut into cells, and a chain of cells is searched by dynamic programming (chain): rows alone discard
+triples of neighbouring cells, Lagrangians whole bundles of paths. The multipliers come from linear
+programs about the best motion known and about paths that are left (quintic_multipliers).
 
 Domain. T_k >= t_k = max |d_k| / v, v a bound on the joint's speed, and T_k <= L - sum of the other t.
-A segment on which nothing moves may vanish, and no piece depends on its duration: x_k is fixed to 1, and
-T_k >= 0 left out of the total.
+A segment on which nothing moves may vanish, and no piece depends on its duration: x_k is fixed to 1,
+and T_k >= 0 left out of the total.
 """
 
 from __future__ import annotations
@@ -86,14 +86,14 @@ class Search:
         self.chain, self._path = Chain(lo, hi), (lo, hi)
         self._near = np.sqrt(lo * hi)
         if near is not None:
-            self._near[self._moves] = np.clip(
-                1.0 / near[shortest > 0.0], lo[self._moves], hi[self._moves]
-            )
+            self._near[self._moves] = 1.0 / near[shortest > 0.0]
+            self._near = np.clip(self._near, lo, hi)
         self._rows = self.pieces.grid()
         self._kept: list[tuple[Rows, Array]] = []
         self._turn = -1
         self._events: list[list[Any]] = []
-        self.reached, self._last = 0.0, ["L", []]
+        self.reached = 0.0
+        self._last: list[Any] = ["L", []]
 
     @property
     def events(self) -> list[list[Any]]:
@@ -155,6 +155,8 @@ class Search:
 
         def most(order: int) -> Array:
             chosen = rows.order == order
+            if not chosen.any():
+                return np.zeros(self.n + 2)
             return -least_sum(-held[chosen], rows.segment[chosen] + 1, self.n + 2)
 
         b, c = down(self._moves - most(2)), most(3)

@@ -60,9 +60,8 @@ class Rows:
     @staticmethod
     def of(parts: list[Rows]) -> Rows:
         """All rows of several."""
-        return Rows(
-            *(np.concatenate(each) for each in zip(*(vars(p).values() for p in parts), strict=True))
-        )
+        columns = zip(*(vars(part).values() for part in parts), strict=True)
+        return Rows(*(np.concatenate(column) for column in columns))
 
     @property
     def power(self) -> Any:
@@ -89,6 +88,9 @@ class Pieces:
         self.n, self.dof = data.d.shape
         self._d = np.pad(data.d, ((1, 1), (0, 0)))  # nothing moves before and after
         self._ends = tuple(np.pad(d, ((1, 1), (0, 0))) for d in (data.d_lo, data.d_hi))
+        lo, hi = (np.sign(end) for end in self._ends)
+        sure = (lo * hi > 0.0) | ((lo == 0.0) & (hi == 0.0))  # the direction, where it is blurred
+        self._sure = sure[:-2] & sure[1:-1] & sure[2:]
         onward = self._d[:-1] * self._d[1:] > 0.0
         self._before, self._after = 0.5 * onward[:-1], 0.5 * onward[1:]
 
@@ -126,7 +128,7 @@ class Pieces:
             limited = np.isfinite(self.data.derivatives[order - 1])[None]
         else:
             limited = np.isfinite(self.data.room_above if sign > 0.0 else self.data.room_below)
-        return limited & (self.data.d != 0.0)
+        return limited & self._sure & (self.data.d != 0.0)
 
     def grid(self) -> Rows:
         """Rows at even places of all pieces."""

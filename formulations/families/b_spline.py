@@ -210,10 +210,9 @@ def _spans(durations: Array, degree: int) -> NDArray[np.int64]:
     return spans
 
 
-@lru_cache(maxsize=64)
-def _shape(n: int, degree: int, pattern: tuple[int, ...]) -> casadi.Function:
-    """What all joints share, as a function of the durations: lengths, basis functions, collocation."""
-    t = casadi.SX.sym("t", n)
+def _shared(t: list[Any], degree: int, spans: NDArray[np.int64]) -> tuple[Any, Any, Any, Any]:
+    """What all joints share: lengths, basis functions, collocation; on whatever t are."""
+    n = len(t)
     n_spans = n + 5 - degree
     gaps, between = scratch(n + 1, n + 1), scratch(n_spans + 1, n_spans + 1)
     reach, h, functions = (
@@ -222,32 +221,35 @@ def _shape(n: int, degree: int, pattern: tuple[int, ...]) -> casadi.Function:
         scratch(n_spans, degree + 1, WIDTH),
     )
     values, matrix = scratch(max(n - 1, 1), degree + 1), scratch(max(n - 1, 1), n + 5)
-    apart.py_func(casadi.vertsplit(t), gaps)
+    apart.py_func(t, gaps)
     knots.py_func(gaps, degree, reach, h)
     apart.py_func(h, between)
     basis.py_func(h, between, degree, functions, scratch(WIDTH))
     if n > 1:
-        collocation.py_func(reach, between, np.array(pattern), degree, values, matrix)
+        collocation.py_func(reach, between, spans, degree, values, matrix)
         eliminate.py_func(matrix)
-    parts = [casadi.vertcat(*part.ravel()) for part in (h, functions, values, matrix)]
-    return casadi.Function("shape", [t], parts)
+    return h, functions, values, matrix
+
+
+@lru_cache(maxsize=64)
+def _built(n: int, degree: int, pattern: tuple[int, ...]) -> casadi.Function:
+    """``_shared`` as a function of the durations: built once per pattern of knots."""
+    t = casadi.SX.sym("t", n)
+    parts = _shared(casadi.vertsplit(t), degree, np.array(pattern))
+    return casadi.Function("shared", [t], [casadi.vertcat(*part.ravel()) for part in parts])
 
 
 def _symbols(waypoints: Array, t: list[Any], near: Array, degree: int) -> tuple[list[Any], list[Any]]:
     """Splines on symbols, for the pattern of knots that ``near`` has (see ``Family``)."""
     n = len(t)
-    n_spans = n + 5 - degree
+    n_spans, rows = n + 5 - degree, max(n - 1, 1)
     spans = _spans(near, degree)
-    shapes = (
-        (n_spans,),
-        (n_spans, degree + 1, WIDTH),
-        (max(n - 1, 1), degree + 1),
-        (max(n - 1, 1), n + 5),
-    )
-    h, functions, values, matrix = (
-        _cells(part, shape)
-        for part, shape in zip(_shape(n, degree, tuple(spans))(casadi.vertcat(*t)), shapes, strict=True)
-    )
+    if isinstance(t[0], casadi.SX):
+        shapes = (n_spans,), (n_spans, degree + 1, WIDTH), (rows, degree + 1), (rows, n + 5)
+        columns = _built(n, degree, tuple(spans))(casadi.vertcat(*t))
+        h, functions, values, matrix = map(_cells, columns, shapes)
+    else:
+        h, functions, values, matrix = _shared(t, degree, spans)
     joints = []
     for x in waypoints.T.tolist():
         c = scratch(n_spans, WIDTH)

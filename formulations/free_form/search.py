@@ -107,7 +107,7 @@ class Search:
             if tolerance >= 1e-3 or before - now <= 0.1 * tolerance * now:
                 break
             arcs, before = (3 * arcs) // 2, now
-        if self.solved is None and self.solve is ipopt.solve:
+        if self.solved is None and self.solve is ipopt.solve and self.task.stretchable:
             self.solve = slp.solve
             self._round(start, mesh, tolerance)
         self._finish(tolerance)

@@ -44,9 +44,9 @@ def solve(
     iterations: int = 100,
     warm: Solution | None = None,
 ) -> Solution:
-    """Solve from x until a step promises less than ``tolerance`` of the time, at least HiGHS's own 1e-7.
+    """Solve from x until a step promises less than ``tolerance`` of the time.
 
-    near, warm: the start is good, and the first box is small.
+    tolerance: 1e-7, HiGHS's own, if less. near, warm: the start is good, and the first box is small.
     """
     value, jacobian, gradient = _linearised(program)
     nonlinear = np.concatenate(

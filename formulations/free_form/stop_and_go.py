@@ -27,7 +27,7 @@ def stop_and_go(task: Task) -> Motion:
             phases = s_curve(np.abs(d), task.limits[:, :, j], order)
             profiles[j] = phases
             least = np.maximum(least, phases.sum(axis=1))
-    scale = float(least.sum())
+    scale = float(least.sum()) or max(task.times.values(), default=1.0)
     times = _slowed(task, np.maximum(least, 1e-9 * scale))
     joints = {}
     for j, phases in profiles.items():

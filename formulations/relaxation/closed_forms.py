@@ -56,7 +56,7 @@ def stop_and_go(problem: Problem) -> Array:
 
 def _rest_to_rest(problem: Problem, j: int, distance: float) -> float:
     V, A, J = problem.limits.derivatives[:, j]
-    if distance == 0.0 or np.isinf(A) and np.isinf(J):
+    if distance == 0.0 or (np.isinf(A) and np.isinf(J)):
         return float(distance / V)
     return rest_to_rest(distance, float(V), float(A), float(J))
 

@@ -13,11 +13,13 @@ from __future__ import annotations
 
 import math
 from dataclasses import dataclass, replace
+from typing import Any
 
 import numpy as np
+from numpy.typing import NDArray
 from scipy.interpolate import PchipInterpolator
 
-from formulations.problem import Array, Problem
+from formulations.problem import Problem
 from formulations.relaxation.cuts import Cuts
 from formulations.relaxation.program import Program
 from formulations.relaxation.reach import distance_coefficients, speed_coefficients
@@ -25,6 +27,8 @@ from formulations.relaxation.rows import Frame
 from formulations.relaxation.switches import farthest, farthest_without_jerk, fastest
 from formulations.relaxation.task import Task
 from formulations.trajectory import Trajectory
+
+Array = NDArray[Any]  # of floats, indices or truth values
 
 _MARGIN = 1e-8  # by which the program's limits are shrunk, for what its tolerance leaves
 _ROUNDS, _TOLERANCE = 60, 1e-9

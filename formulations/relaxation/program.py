@@ -52,7 +52,7 @@ class Program:
 
     def __init__(self, frame: Frame, cuts: Cuts, *, options: dict[str, Any] | None = None) -> None:
         self.frame = frame
-        self.highs = highspy.Highs()
+        self.highs: Any = highspy.Highs()
         for option, value in (_OPTIONS | (options or {})).items():
             self.highs.setOptionValue(option, value)
         self.highs.addVars(frame.size, frame.box[:, 0].copy(), frame.box[:, 1].copy())
@@ -119,7 +119,7 @@ class Program:
             self.add(cuts)
         return self._solution(cost, converged)
 
-    def _run(self, deadline: float) -> highspy.HighsModelStatus:
+    def _run(self, deadline: float) -> Any:
         """Solve from the last basis; from scratch if that goes wrong."""
         for _ in range(2):
             left = max(deadline - time.perf_counter(), 1e-3)

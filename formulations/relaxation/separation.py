@@ -2,9 +2,11 @@
 
 from __future__ import annotations
 
-import numpy as np
+from typing import Any
 
-from formulations.problem import Array
+import numpy as np
+from numpy.typing import NDArray
+
 from formulations.relaxation.cuts import (
     CRUISE,
     DISTANCE,
@@ -21,6 +23,8 @@ from formulations.relaxation.cuts import (
 )
 from formulations.relaxation.rows import Frame
 from formulations.relaxation.switches import farthest, farthest_without_jerk, fastest, soonest_stop
+
+Array = NDArray[Any]  # of floats, indices or truth values
 
 
 def separate(frame: Frame, x: Array, tolerance: float) -> Cuts:

@@ -13,9 +13,13 @@ ones make those that cut deepest.
 
 from __future__ import annotations
 
-import numpy as np
+from typing import Any
 
-from formulations.problem import Array
+import numpy as np
+from numpy.typing import NDArray
+
+Array = NDArray[Any]  # of floats, indices or truth values
+
 
 _STEPS, _SETTLED = 60, 1e-16
 
