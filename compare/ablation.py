@@ -180,6 +180,12 @@ def ablation_figure(summary: dict[str, Any], protocol: Protocol) -> Figure:
             axes.plot(entry["raw"], y - 0.22, "^", color=BLUE, ms=4, alpha=0.6)
             axes.plot(entry["printed"], y + 0.22, "X", color=VERMILION, ms=5)
         axes.set_xscale("log")
+        low, high = axes.get_xlim()
+        ticks = [t for t in (0.5, 0.7, 0.85, 1, 1.2, 1.5, 2, 3, 5, 10, 30, 100) if low < t < high]
+        if high > 10:
+            ticks = [t for t in ticks if t in (1, 3, 10, 30, 100)]
+        axes.set_xticks(ticks, [f"{t:g}" for t in ticks])
+        axes.minorticks_off()
         axes.set_yticks(range(len(functions)), [f"f{i}" for i in functions])
         axes.set_ylim(len(functions) - 0.4, -0.6)
         axes.set_title(f"without {strategy}", loc="left", fontsize=9)

@@ -181,7 +181,8 @@ def bias_figure(summary: dict[str, dict[str, float | None]]) -> Figure:
     axes.grid(axis="y", alpha=0.25, lw=0.5)
     axes.set_xlabel("median error there / median error here [1]; grey: within ten")
     axes.set_title("Who is drawn to zero: 1 means that it does not matter where zero lies", loc="left")
-    axes.legend(ncols=2, fontsize=8, frameon=False, loc="upper center", bbox_to_anchor=(0.5, -0.1))
+    handles, labels = axes.get_legend_handles_labels()
+    figure.legend(handles, labels, loc="outside lower center", ncols=2, fontsize=8, frameon=False)
     return figure
 
 

@@ -10,6 +10,7 @@ import matplotlib as mpl
 import matplotlib.pyplot as plt
 import numpy as np
 from matplotlib.axes import Axes
+from matplotlib.collections import LineCollection
 from matplotlib.figure import Figure
 from matplotlib.lines import Line2D
 
@@ -220,7 +221,7 @@ def convergence_figure(
     optima |= {j: s for j, s in enumerate(ladder["alone"]) if s is not None}
     figure, grid = plt.subplots(
         len(groups), len(codings), figsize=(10.5, 0.9 + 2.1 * len(groups)),
-        sharex="col", sharey=True, squeeze=False,
+        sharex="col", sharey=True, squeeze=False, layout="none",
     )  # fmt: skip
     curves = {}
     for coding in codings:
@@ -231,16 +232,17 @@ def convergence_figure(
                 curves[coding, swarm] = convergence(found, optima, mine[0]["budget"])
     for panels, (group, members) in zip(grid, groups.items(), strict=True):
         for axes, coding in zip(panels, codings, strict=True):
+            others = []
             for (where, swarm), (at, quartiles) in curves.items():
                 if where != coding:
                     continue
                 if swarm in members:
                     style = SWARM_STYLE[members.index(swarm) % len(SWARM_STYLE)]
                     _converging(axes, at, quartiles, style, swarm)
-                else:  # the others, to compare with
+                else:
                     shown = np.isfinite(quartiles[1])
-                    axes.plot(at[shown], np.maximum(quartiles[1][shown], SMALLEST),
-                              color=GREY, lw=0.5, alpha=0.35)  # fmt: skip
+                    others.append(np.column_stack([at, np.maximum(quartiles[1], SMALLEST)])[shown])
+            axes.add_collection(LineCollection(others, colors=GREY, lw=0.5, alpha=0.35))
             axes.set_xscale("log")
             axes.set_yscale("log")
             axes.minorticks_off()  # as many as all the rest of the picture
@@ -253,6 +255,9 @@ def convergence_figure(
         grid[0][column].set_title(coding, loc="left")
         per = " of each joint" if coding == "published" else ""
         grid[-1][column].set_xlabel(f"evaluations{per}")
+    high = figure.get_figheight()  # room for words; a computed layout of so many panels takes seconds
+    figure.subplots_adjust(left=0.085, right=0.84, bottom=0.5 / high, top=1 - 0.55 / high,
+                           wspace=0.06, hspace=0.08)  # fmt: skip
     figure.suptitle(
         f"{problem.name}: median over seeds, band: quartiles; grey: all other swarms. published: mean"
         " over the joints, each against its own optimum",

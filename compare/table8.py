@@ -153,7 +153,8 @@ def table8_figure(rows: list[Row], summary: dict[str, Any]) -> Figure:
                       color=ORANGE, fontsize=8, ha="left")  # fmt: skip
         everything = np.concatenate([g[np.isfinite(g)] for g in groups])
         least = min(facts["bound"], float(everything.min()))
-        axes.set_xlim(least - 0.06, float(np.quantile(everything, 0.998)) + 0.03)
+        most = max(float(np.quantile(everything, 0.998)), *map(max, PRINTED.values()))
+        axes.set_xlim(least - 0.06, most + 0.03)
         axes.set_yticks(range(len(names)), names)
         axes.set_ylim(len(names) - 0.4, -0.95)
         axes.set_xlabel("time of joint 1 alone [s]; every run a mark, | the mean")

@@ -6,7 +6,6 @@ unit box, from a uniform mean with sigma = 0.3 of it, default population; a rest
 
 from __future__ import annotations
 
-import cmaes
 import numpy as np
 
 from metaheuristics.outside.library import finite, seed_of
@@ -15,6 +14,8 @@ from metaheuristics.task import Moves, Task
 
 def cma_es(task: Task, *, sigma: float = 0.3) -> Moves:
     """CMA-ES, restarted until the budget is gone."""
+    import cmaes  # loads scipy.stats, which takes longer than the rest of the package
+
     cells = max(task.dim, 2)  # the library wants two; a second one is not used
     size: int | None = None
     while True:

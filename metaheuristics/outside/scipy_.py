@@ -12,7 +12,6 @@ from collections.abc import Callable, Iterator
 
 import numpy as np
 from scipy import optimize
-from scipy.stats import qmc
 
 from metaheuristics.bridge import inverted
 from metaheuristics.outside.library import finite
@@ -31,6 +30,8 @@ def sobol(task: Task, *, population: int = 50) -> Moves:
 
 
 def _sobol_points(task: Task) -> Iterator[Array]:
+    from scipy.stats import qmc  # takes longer to load than the rest of the package
+
     engine = qmc.Sobol(task.dim, rng=task.rng)
     while True:
         yield from engine.random(BLOCK)
