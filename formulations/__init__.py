@@ -12,6 +12,7 @@ from formulations.family_optimum import (
     family_optimum,
     longest_segment,
 )
+from formulations.free_form_bound import FreeFormBound, free_form_bound
 from formulations.ladder import Ladder, ladder
 from formulations.problem import Limits, Problem
 from formulations.problem_file import CASES, load, parse
@@ -24,6 +25,7 @@ __all__ = [
     "REFERENCES",
     "FamilyBound",
     "FamilyOptimum",
+    "FreeFormBound",
     "InputError",
     "Ladder",
     "Limits",
@@ -36,6 +38,7 @@ __all__ = [
     "each_joint_alone",
     "family_bound",
     "family_optimum",
+    "free_form_bound",
     "ladder",
     "load",
     "longest_segment",

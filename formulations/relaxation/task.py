@@ -20,10 +20,10 @@ class Task:
     asks less of it. A joint that never moves can stand still; one whose velocity alone is limited gives
     T >= |d| / V and no more.
 
-    displacements: (K, n) [rad], each rounded once. room: (K + 1, n, 2), from a waypoint down and up to the
-    position limits, infinite without one. velocity, acceleration, jerk: (n,), limits that
-    every motion of at most ``horizon`` seconds keeps: jerk 0 where unlimited. segments (K,), joints
-    (n,): their numbers in the problem.
+    displacements: (K, n) [rad], each rounded once. room: (K + 1, n, 2) [rad], from each waypoint down
+    and up to the position limits, infinite without one. velocity, acceleration, jerk: (n,), limits
+    that every motion of at most ``horizon`` seconds keeps, jerk 0 where unlimited. segments (K,),
+    joints (n,): their numbers in the problem.
     """
 
     displacements: Array

@@ -1,8 +1,8 @@
 """Narrower boxes for the motions that take at most the horizon, and with them a tighter relaxation.
 
-Each bound of a duration, or of an acceleration at a waypoint, is itself the optimum of the relaxation for
-another cost, certified the same way (optimality-based bound tightening, Gleixner et al. 2017). The rows
-(6), (8) and (9) are the tighter the narrower the boxes: what they lose is of second order in the width.
+Each bound of a duration, or of an acceleration at a waypoint, is itself the optimum of the relaxation
+for another cost, certified the same way (optimality-based bound tightening, Gleixner et al. 2017). The
+rows (6), (8) and (9) lose by the square of the boxes' widths.
 """
 
 from __future__ import annotations
@@ -46,9 +46,7 @@ def tightened(program: Program, solution: Solution, deadline: float) -> Boxes:
                 return Boxes(durations, accelerations, False)
             cost = np.zeros(frame.size)
             cost[column] = sign
-            found = program.solve(
-                cost, rounds=_ROUNDS, tolerance=_TOLERANCE, deadline=deadline
-            )
+            found = program.solve(cost, rounds=_ROUNDS, tolerance=_TOLERANCE, deadline=deadline)
             if found.empty:
                 return Boxes(durations, accelerations, True)
             bound = sign * found.bound * unit
@@ -65,7 +63,7 @@ def _priced(program: Program, solution: Solution) -> list[tuple[int, int]]:
     found = set()
     for end, kind in enumerate((PRODUCT_AT_START, PRODUCT_AT_END)):
         carries = (cuts.kind == kind) & (y > 1e-9 * np.abs(y).max(initial=0.0))
-        found |= set(zip((cuts.segment[carries] + end).tolist(), cuts.joint[carries].tolist(), strict=True))
+        found |= set(
+            zip((cuts.segment[carries] + end).tolist(), cuts.joint[carries].tolist(), strict=True)
+        )
     return sorted(found)
-
-
