@@ -31,7 +31,8 @@ _ACCELERATIONS = (0.0, 1.0, 0.0, 0.0, 0.0, -1.0, 0.0)
 def motion_through(problem: Problem, durations: Array, states: States) -> Trajectory | None:
     """The motion with durations (K,) [s] of the segments that move; to be checked.
 
-    None if a joint without a limit on acceleration or jerk would jump in its speed.
+    None if a joint without a limit on acceleration or jerk would jump in its speed, or if the numbers
+    leave the range of floats.
     """
     task, v, a = states.task, states.velocities, states.accelerations
     if set(problem.moving_joints) != set(task.joints.tolist()):
@@ -53,7 +54,10 @@ def motion_through(problem: Problem, durations: Array, states: States) -> Trajec
         lengths.append(h * durations[row])
         pieces.append(coefficients)
         passages[k + 1] = lengths[-1].sum()
-    return Trajectory(np.concatenate(lengths), np.concatenate(pieces), np.cumsum(passages))
+    moves = np.concatenate(pieces)
+    if not np.isfinite(moves).all():
+        return None
+    return Trajectory(np.concatenate(lengths), moves, np.cumsum(passages))
 
 
 @dataclass(frozen=True)

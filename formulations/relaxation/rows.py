@@ -26,6 +26,7 @@ from __future__ import annotations
 from dataclasses import dataclass
 
 import numpy as np
+from numpy.typing import NDArray
 from scipy.sparse import csr_array, vstack
 
 from formulations.problem import Array
@@ -160,7 +161,9 @@ class Frame:
             columns = [self.W[k, j, end], self.a[k + end, j], self.T[k]]
             return self._rows(columns, [-side, side * t, side * e], side * t * e)
         ramp, bend = self.ramp[k, j], self.bend[k, j]
+        limited = self.task.has_jerk[j]
         if kind in (PEAK_AT_START, PEAK_AT_END):
+            _require(limited)
             end = int(kind == PEAK_AT_END)
             c = cuts.at[:, 0] * self.typical[k] / self.task.acceleration[j]
             share = ramp**2 / bend
@@ -171,6 +174,7 @@ class Frame:
             c_v, c_W, c_A, c_J = stop_coefficients(cuts.at[:, :2])
             # time turned: W changes its sign, and the joint comes from where it would go
             c_W = -c_W if end else c_W
+            _require(limited | (c_J == 0.0))
             room = self.room[k + end, j, ((sign > 0.0) != bool(end)).astype(int)] / self.typical[k]
             columns = [
                 self.v[k + end, j],
@@ -185,9 +189,11 @@ class Frame:
         T, square = self.T[k], self.square[k]
         if kind == SPEED:
             c_W0, c_W1, c_A, c_J = speed_coefficients(cuts.at[:, :2])
+            _require(limited | (c_J == 0.0))
             a = [sign, -sign, -sign * c_W0 * ramp, -sign * c_W1 * ramp, -c_A * ramp, -c_J * bend]
             return self._rows([v1, v0, W0, W1, T, square], a, np.zeros(len(k)))
         c_v0, c_W0, c_v1, c_W1, c_V, c_A, c_J = distance_coefficients(cuts.at, kind == CRUISE)
+        _require(limited | (c_J == 0.0))
         a = [sign * self.distance[k, j], -sign * c_v0, -sign * c_v1, -sign * c_W0 * ramp]
         a += [-sign * c_W1 * ramp, -c_A * ramp, -c_J * bend]
         return self._rows([self.inverse[k], v0, v1, W0, W1, T, square], a, c_V)
@@ -207,3 +213,9 @@ class Frame:
         starts = np.arange(0, a.size + 1, a.shape[1])
         matrix = csr_array((a.ravel(), where.ravel(), starts), shape=(len(upper), self.size))
         return Rows(matrix, upper + _ALLOWANCE * size)
+
+
+def _require(sound: NDArray[np.bool_]) -> None:
+    """Rows that speak of a jerk need a limit of it."""
+    if not sound.all():
+        raise ValueError("a row needs a jerk limit where there is none")
