@@ -35,12 +35,12 @@ class FreeFormBound:
     """No motion takes less than ``seconds``.
 
     method: "displacement", "ruckig_end_to_end", "segment" or "relaxation", which gave it; bounds: each
-    of them [s]. upper: total [s] of the fastest motion known, given or found and verified; None if none.
-    motion: the one found, if it is that fast. durations: (n_segments,) [s] of the relaxation's optimum.
-    savings: (3, n_segments, dof), seconds saved per relative increase of a joint's velocity,
-    acceleration, jerk limit in a segment, to first order; None without a relaxation. status: "proved"
-    (the gap asked for), "tight as it gets" (narrower boxes would prove no more), "time limit",
-    "simple bounds only: reason" or "HiGHS ended with reason". rows: of the last program.
+    of them [s]. upper: total [s] of the fastest motion known, given or found and verified, None if
+    there is none. motion: the one found, if it is that fast. durations: (n_segments,) [s] of the
+    relaxation's optimum. savings: (3, n_segments, dof), seconds saved per relative increase of a
+    joint's velocity, acceleration, jerk limit in a segment, to first order; None without a relaxation.
+    status: "proved" (the gap asked for), "tight as it gets" (narrower boxes would prove no more), "time
+    limit", "simple bounds only: reason" or "HiGHS ended with reason". rows: of the last program.
     """
 
     problem: Problem

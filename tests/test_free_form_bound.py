@@ -37,6 +37,7 @@ from formulations.relaxation.program import Program
 from formulations.relaxation.reach import distance_coefficients, speed_coefficients
 from formulations.relaxation.rows import Frame
 from formulations.relaxation.safe_dual import safe_bound
+from formulations.relaxation.separation import separate
 from formulations.relaxation.switches import farthest, fastest
 from formulations.relaxation.task import Task
 from formulations.relaxation.tightening import tightened
@@ -235,6 +236,68 @@ def test_every_row_holds_for_every_motion(kind: str, seed: int) -> None:
                 assert (rows.matrix @ x - rows.upper <= ROUNDING * size).all()
 
 
+def banged(jerks: list[tuple[float, float]]) -> Trajectory:
+    """One joint from rest through pieces of constant jerk: (jerk, duration)."""
+    state, pieces = np.zeros(3), []
+    for jerk, h in jerks:
+        x, v, a = state
+        pieces.append([[x, v, a / 2.0, jerk / 6.0]])
+        state = np.array(
+            [x + h * (v + h * (a / 2 + h * jerk / 6)), v + h * (a + h * jerk / 2), a + h * jerk]
+        )
+    return Trajectory(np.array([h for _, h in jerks]), np.array(pieces))
+
+
+R3 = math.sqrt(3.0)
+EXTREMAL = {
+    # jerk alone; with acceleration; with both; from -V to V; turning round with jerk, with acceleration
+    "jerk": [(1.0, 1.0), (-1.0, 2.0), (1.0, 1.0)],
+    "acceleration": [(1.0, 1.0), (0.0, 2.0), (-1.0, 2.0), (0.0, 2.0), (1.0, 1.0)],
+    "cruise": [(1.0, 1.0), (0.0, 1.0), (-1.0, 1.0), (0.0, 3.0), (-1.0, 1.0), (0.0, 1.0), (1.0, 1.0)],
+    "to and fro": [(-1.0, 1.0), (1.0, 1.0 + 2.0**0.5), (-1.0, 1.0 + 2.0**0.5), (1.0, 1.0)],
+    "turn": [(1.0, 1.0), (-1.0, 3.0), (1.0, 2.0 + R3), (-1.0, R3)],
+    "turn, held": [(1.0, 1.0), (-1.0, 2.0), (0.0, 3.0), (1.0, 2.0), (0.0, 2.0), (-1.0, 1.0)],
+}
+
+
+@pytest.mark.parametrize("kind", EXTREMAL)
+def test_every_row_holds_where_nothing_is_left(kind: str) -> None:
+    """Motions that use their limits to the full, seen at any times, in rows posed for their states."""
+    motion, used = banged(EXTREMAL[kind]), set()
+    most = [max(-e.low.min(), e.high.max()) for e in (motion.extremes(1), motion.extremes(2))]
+    for seed in range(4):
+        rng = np.random.default_rng(seed)
+        inner = np.sort(rng.uniform(0.05, 0.95, 3) * motion.seconds) if seed else motion.breaks[1:-1]
+        times = np.concatenate([[0.0], inner, [motion.seconds]])
+        passing = replace(motion, passages=times)
+        # an acceleration limit just as large as the motion needs, or one without influence
+        limits = most[0], most[1] * (100.0 if seed % 2 else 1.0), 1.0
+        problem = limited_by(passing, task_of(motion.at(times), *limits))
+        assert check(problem, passing).feasible
+        frame = frame_for(problem, motion.seconds * (1.0 + 1e-12))
+        x = point_of(frame, problem, passing)
+        outside = np.maximum(frame.box[:, 0] - x, x - frame.box[:, 1])
+        assert outside.max() <= ROUNDING * np.abs(x).max()
+        posed = separate(frame, x, -math.inf)
+        rows = frame.of(posed)
+        excess = rows.matrix @ x - rows.upper
+        assert excess.max() <= 1e-11
+        used |= set(posed.kind[excess > -1e-9].tolist())
+    # and every kind of row is used up somewhere: a smaller one would cut a motion off
+    assert used >= set(range(11)) - {kinds.CRUISE}
+
+
+def test_a_joint_may_use_all_the_speed_it_has_time_for() -> None:
+    """Accelerate, brake: half way it is as fast as the horizon allows, and no slower is asked of it."""
+    motion = stopping(task_of([[0.0], [1.0]], 10.0, 3.0))
+    problem = task_of([[0.0], [0.5], [1.0]], 10.0, 3.0)
+    passing = replace(motion, passages=np.array([0.0, 0.5, 1.0]) * motion.seconds)
+    frame = frame_for(problem, motion.seconds)
+    x = point_of(frame, problem, passing)
+    assert x[frame.v[1, 0]] == pytest.approx(1.0, rel=1e-12)
+    assert frame.task.velocity[0] == pytest.approx(3.0 * motion.seconds / 2.0, rel=1e-12)
+
+
 def test_a_wrong_row_is_noticed(monkeypatch: pytest.MonkeyPatch) -> None:
     """A coefficient of the jerk that is a hundredth too small would break the test above."""
 
@@ -312,7 +375,7 @@ def lagrangian(cost: Array, matrix: Array, upper: Array, box: Array, y: Array) -
     return Fraction(least - exactly(upper) @ y)
 
 
-@pytest.mark.parametrize("seed", range(30))
+@pytest.mark.parametrize("seed", range(60))
 def test_safe_bound_never_exceeds_the_exact_one(seed: int) -> None:
     rng = np.random.default_rng(seed)
     m, n = rng.integers(1, 12, 2)
@@ -322,6 +385,8 @@ def test_safe_bound_never_exceeds_the_exact_one(seed: int) -> None:
     y = rng.normal(size=m) * 10.0 ** rng.uniform(-8.0, 8.0)
     if seed % 3 == 0:  # a reduced cost that cancels but for rounding
         cost = -(matrix.T @ np.maximum(y, 0.0))
+    if seed % 3 == 1:  # nothing but the right hand sides
+        box, y = 0.0 * box, np.abs(y)
     bound = safe_bound(cost, csr_array(matrix), upper, box, y)
     true = lagrangian(cost, matrix, upper, box, y)
     assert Fraction(bound) <= true
@@ -399,6 +464,21 @@ def test_one_joint_that_never_turns_back(V: float, A: float, J: float, inner: li
     # the relaxation knows nothing of the closed form, which ended the search
     assert bound.bounds["relaxation"] >= optimum * (1.0 - 2e-2)
     holds(problem, bound)
+
+
+@pytest.mark.parametrize("limits", [(1.0, 2.0, 10.0), (5.0, 1.5, 3.0), (1.0, np.inf, 4.0), (1.0, 2.0)])
+@pytest.mark.parametrize("distance", [0.003, 0.05, 0.2, 0.7, 3.0])
+def test_a_first_segment_by_itself(limits: tuple[float, ...], distance: float) -> None:
+    """Against the steepest start there is, step by step: a <= J t, a <= A, v + a^2 / (2 J) <= V."""
+    V, A, J = (*limits, np.inf)[:3]
+    t, h, x, v, a = 0.0, 1e-4, 0.0, 0.0, 0.0
+    while x < distance:
+        a = min(a + J * h if np.isfinite(J) else A, A, math.sqrt(2.0 * J * max(V - v, 0.0)))
+        a = min(a, (V - v) / h)
+        x, v, t = x + h * (v + h * a / 2.0), v + h * a, t + h
+    alone = least_durations(task_of([[0.0], [distance], [0.0]], *limits))
+    assert alone[0] == alone[1] == pytest.approx(t, rel=1e-3, abs=1e-4)
+    assert least_durations(task_of([[-1.0], [0.0], [distance], [0.0]], *limits))[1] <= distance / V
 
 
 @given(distances=st.lists(SIZE, min_size=1, max_size=4), V=SIZE, A=SIZE, J=SIZE)
