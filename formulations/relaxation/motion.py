@@ -21,6 +21,7 @@ from formulations.relaxation.switches import Truths, farthest, farthest_without_
 from formulations.trajectory import Trajectory
 
 _STEPS = 60  # of Newton's method, to the last digit
+_CLOSE = 1e-12  # breaks, in normalised time
 _BISECTIONS = 20  # for the gentlest share
 
 # jerks in units of its limit between the switches; without one, accelerations
@@ -148,13 +149,15 @@ def _ways(ends: _Ends, d: Array) -> list[tuple[Array, Array]]:
 def _mixed(ways: list[tuple[Array, Array]]) -> tuple[Array, Array]:
     """Breaks (m + 1,) common to all joints of a segment, and the sum of both ways, (m, n)."""
     breaks = np.unique(np.concatenate([switches.ravel() for switches, _ in ways]))
-    breaks = np.append(breaks[:-1][np.diff(breaks) > 1e-12], 1.0)
-    middles = 0.5 * (breaks[1:] + breaks[:-1])
-    total = np.zeros((len(middles), len(ways[0][0])))
+    breaks = breaks[np.diff(breaks, prepend=-1.0) > _CLOSE]
+    breaks = np.append(breaks[breaks < 1.0 - _CLOSE], 1.0)
+    total = np.zeros((len(breaks) - 1, len(ways[0][0])))
     for switches, values in ways:
+        # means, as breaks that are closer than that are one
+        sums = np.cumsum(values * np.diff(switches), axis=1)
         for j in range(total.shape[1]):
-            total[:, j] += values[j, np.clip(np.searchsorted(switches[j], middles) - 1, 0, 6)]
-    return breaks, total
+            total[:, j] += np.diff(np.interp(breaks, switches[j], np.append(0.0, sums[j])))
+    return breaks, total / np.diff(breaks)[:, None]
 
 
 def _covered(ends: _Ends, breaks: Array, values: Array) -> Array:
