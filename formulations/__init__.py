@@ -13,6 +13,7 @@ from formulations.family_optimum import (
     longest_segment,
 )
 from formulations.free_form import FreeForm, Sensitivity, free_form
+from formulations.free_form_bound import FreeFormBound, free_form_bound
 from formulations.ladder import Ladder, ladder
 from formulations.problem import Limits, Problem
 from formulations.problem_file import CASES, load, parse
@@ -27,6 +28,7 @@ __all__ = [
     "FamilyBound",
     "FamilyOptimum",
     "FreeForm",
+    "FreeFormBound",
     "InputError",
     "Ladder",
     "Limits",
@@ -41,6 +43,7 @@ __all__ = [
     "family_bound",
     "family_optimum",
     "free_form",
+    "free_form_bound",
     "ladder",
     "load",
     "longest_segment",

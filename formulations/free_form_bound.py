@@ -2,15 +2,15 @@
 
 It holds for every motion from rest to rest (where jerk is limited: with an acceleration that starts and
 ends at 0) through all waypoints in order, all joints at once, that keeps the velocity, acceleration and
-jerk limits; the jerk need only be measurable. Each spline family through the same waypoints is made of
-such motions, so it is a lower bound of every family too. Position limits are not used: they could only
-make the fastest motion slower.
+jerk limits exactly and the position limits to within ``problem.position_slack``; the jerk need only be
+measurable. Each spline family through the same waypoints is made of such motions, so it is a lower
+bound of every family too.
 
 The best of four: displacement at top speed, rest to rest between the first and the last waypoint
-(``ruckig_end_to_end``), each segment by itself, and the linear relaxation of ``relaxation``: rows that
-every motion satisfies, posed where they are needed, whose optimum is bounded from its multipliers in
-rounded arithmetic. The relaxation is tight for most tasks; where it is not, its boxes are narrowed to
-the motions that are faster than the fastest one known.
+(``ruckig_end_to_end``, by its closed form), each segment by itself, and the linear relaxation of
+``relaxation``: rows that every motion satisfies, posed where they are needed, whose optimum is bounded
+from its multipliers in rounded arithmetic. The relaxation is tight for most tasks; where it is not,
+its boxes are narrowed to the motions that are faster than the fastest one known.
 
 What passes the check may exceed the limits by its relative tolerance, and is then faster than the bound
 by as little: see ``least_verified``.
@@ -35,11 +35,12 @@ class FreeFormBound:
     """No motion takes less than ``seconds``.
 
     method: "displacement", "ruckig_end_to_end", "segment" or "relaxation", which gave it; bounds: each
-    of them [s]. upper: verified total [s] of the fastest motion known, given or found; None if none.
-    motion: the one found, if it is that fast. durations: (n_segments,) [s] of the relaxation's optimum.
-    savings: (3, n_segments, dof), seconds saved per relative increase of a joint's velocity,
-    acceleration, jerk limit in a segment, to first order. status: "proved" (the gap asked for),
-    "tight as it gets", "time limit" or "simple bounds only: reason". rows: of the last program.
+    of them [s]. upper: total [s] of the fastest motion known, given or found and verified, None if
+    there is none. motion: the one found, if it is that fast. durations: (n_segments,) [s] of the
+    relaxation's optimum. savings: (3, n_segments, dof), seconds saved per relative increase of a
+    joint's velocity, acceleration, jerk limit in a segment, to first order; None without a relaxation.
+    status: "proved" (the gap asked for), "tight as it gets" (narrower boxes would prove no more), "time
+    limit", "simple bounds only: reason" or "HiGHS ended with reason". rows: of the last program.
     """
 
     problem: Problem
@@ -65,8 +66,11 @@ class FreeFormBound:
 
     @property
     def least_verified(self) -> float:
-        """No motion that passes the check is faster than this [s]: its tolerance, and its rounding."""
-        return self.seconds * (1.0 - 1.001 * TOLERANCE)
+        """No motion that passes the check is faster than this [s].
+
+        Its tolerance counts for limits, waypoints, rest and continuity: ten times it covers them all.
+        """
+        return self.seconds * (1.0 - 10.0 * TOLERANCE)
 
 
 def free_form_bound(

@@ -1,10 +1,10 @@
 """Lower bounds in closed form: what no motion through the waypoints can do without.
 
-Displacement: |d| / V on every segment. End to end: rest to rest from the first waypoint to the last. One
-by one: each segment by itself, the first one from rest, the last one to rest, the others at top speed.
+Displacement: |d| / V on every segment. End to end: rest to rest from the first waypoint to the last.
+One by one: each segment by itself, the first from rest, the last to rest, the others at top speed.
 
-Every formula is a few roundings of sums and products of positive numbers, 1e-14 at most in relative size,
-and continuous from case to case; ``SAFE`` is far beyond that.
+Every formula is a few roundings of sums and products of positive numbers, 1e-14 at most in relative
+size, and continuous from case to case; ``SAFE`` is far beyond that.
 """
 
 from __future__ import annotations
@@ -43,9 +43,9 @@ def least_durations(problem: Problem) -> Array:
 
 
 def stop_and_go(problem: Problem) -> Array:
-    """Rest to rest on each segment, (n_segments,) [s]: a motion, unless a joint's velocity alone is limited.
+    """Rest to rest on each segment, (n_segments,) [s], rounded up.
 
-    Rounded up.
+    A motion, unless a joint's velocity alone is limited.
     """
     each = [
         max(_rest_to_rest(problem, j, float(d)) for j, d in enumerate(row))
@@ -75,7 +75,7 @@ def _from_rest(problem: Problem, j: int, distance: float) -> float:
 
 
 def _farthest_from_rest(t: float, V: float, A: float, J: float) -> float:
-    """How far a joint can get from rest in t seconds [rad]: jerk J, acceleration A, jerk -J, speed V."""
+    """How far a joint gets from rest in t seconds [rad]: jerk J, acceleration A, jerk -J, speed V."""
     if math.isinf(J):
         rise = V / A
         return A * t**2 / 2.0 if t <= rise else V * (t - rise / 2.0)

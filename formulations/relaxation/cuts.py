@@ -11,8 +11,8 @@ from formulations.problem import Array
 
 Indices = NDArray[np.intp]
 
-# rows (8), (9); (10), (11) and (3) at either end of a segment; (1) without and with a piece at top speed;
-# (2)
+# rows (7), (8); (9), (10) and (3) at either end of a segment; (1) without and with a piece at top
+# speed; (2)
 TANGENT, HULL, PRODUCT_AT_START, PRODUCT_AT_END, PEAK_AT_START, PEAK_AT_END = range(6)
 STOP_AT_START, STOP_AT_END, DISTANCE, CRUISE, SPEED = range(6, 11)
 

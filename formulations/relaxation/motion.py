@@ -1,93 +1,69 @@
-"""A motion from durations: where the relaxation is tight, the fastest one there is.
+"""A motion from durations and states: where the relaxation is tight, the fastest one there is.
 
-With durations fixed everything else is convex. States at the waypoints come from the program with boxes
-of no width; between them each joint moves by a mixture of the two motions that go farthest forwards and
+Between the waypoints each joint moves by a mixture of the two motions that go farthest forwards and
 farthest backwards (``switches``) with the least share of its acceleration and jerk limits that does: it
 keeps every limit as both do, and starts and ends in the same states.
 
-Nothing rests on this: whoever uses the motion has it checked. Position limits are kept at the waypoints,
-by the rows, and mostly between them, as the motion is a gentle one.
+Nothing rests on this: whoever uses the motion has it checked. Position limits are kept at the
+waypoints, by the rows, and mostly between them, as the motion is a gentle one.
 """
 
 from __future__ import annotations
 
-import math
-from dataclasses import dataclass, replace
-from typing import Any
+from dataclasses import dataclass
 
 import numpy as np
-from numpy.typing import NDArray
-from scipy.interpolate import PchipInterpolator
 
-from formulations.problem import Problem
-from formulations.relaxation.cuts import Cuts
-from formulations.relaxation.program import Program
+from formulations.problem import Array, Problem
 from formulations.relaxation.reach import distance_coefficients, speed_coefficients
-from formulations.relaxation.rows import Frame
-from formulations.relaxation.switches import farthest, farthest_without_jerk, fastest
-from formulations.relaxation.task import Task
+from formulations.relaxation.states import States
+from formulations.relaxation.switches import Truths, farthest, farthest_without_jerk, fastest
 from formulations.trajectory import Trajectory
 
-Array = NDArray[Any]  # of floats, indices or truth values
-
-_MARGIN = 1e-8  # by which the program's limits are shrunk, for what its tolerance leaves
-_ROUNDS, _TOLERANCE = 60, 1e-9
+_STEPS = 60  # of Newton's method, to the last digit
+_CLOSE = 1e-12  # breaks, in normalised time
 _BISECTIONS = 20  # for the gentlest share
 
+# jerks in units of its limit between the switches; without one, accelerations
+_JERKS = (1.0, 0.0, -1.0, 0.0, -1.0, 0.0, 1.0)
+_ACCELERATIONS = (0.0, 1.0, 0.0, 0.0, 0.0, -1.0, 0.0)
 
-def motion_through(
-    problem: Problem, durations: Array, cuts: Cuts, deadline: float = math.inf
-) -> Trajectory | None:
-    """A motion with these durations of the segments that move [s], None if there seems to be none.
 
-    cuts: good ones for a start. deadline: of ``time.perf_counter``.
+def motion_through(problem: Problem, durations: Array, states: States) -> Trajectory | None:
+    """The motion with durations (K,) [s] of the segments that move; to be checked.
+
+    None if a joint without a limit on acceleration or jerk would jump in its speed, or if the numbers
+    leave the range of floats.
     """
-    limits = problem.limits
-    v, a, j = limits.derivatives * (1.0 - _MARGIN)
-    shrunk = replace(problem, limits=replace(limits, velocity=v, acceleration=a, jerk=j))
-    horizon = float(durations.sum()) * (1.0 + _MARGIN)
-    task = Task.of(shrunk, horizon, 0.0)
+    task, v, a = states.task, states.velocities, states.accelerations
     if set(problem.moving_joints) != set(task.joints.tolist()):
-        return None  # a joint without a limit on acceleration or jerk would jump from speed to speed
-    limit = np.broadcast_to(task.acceleration, (len(durations) + 1, len(task.joints)))
-    box = np.stack([durations, durations], axis=1)
-    frame = Frame(task, box, np.stack([-limit, limit], axis=-1), durations)
-    program = Program(frame, cuts)
-    point = program.solve(np.zeros(frame.size), rounds=_ROUNDS, tolerance=_TOLERANCE, deadline=deadline)
-    if not point.converged:
         return None
-    cost, box = _calmer(problem, task, frame, durations, point.x)
-    program.confine(box)
-    calmer = program.solve(cost, rounds=_ROUNDS, tolerance=_TOLERANCE, deadline=deadline)
-    point = calmer if calmer.converged else point
-    speeds, accelerations = point.x[frame.v] * task.velocity, point.x[frame.a] * task.acceleration
-    return _assembled(problem, Task.of(problem, horizon), durations, speeds, accelerations)
-
-
-def _calmer(
-    problem: Problem, task: Task, frame: Frame, durations: Array, x: Array
-) -> tuple[Array, Array]:
-    """Cost and boxes that draw x, as far as the rows allow, to the speeds of a monotone interpolant.
-
-    Between x and the wanted value the distance to it is linear.
-    """
-    times = np.concatenate([[0.0], np.cumsum(durations)])
-    passed = np.append(task.segments, task.segments[-1] + 1)
-    points = problem.waypoints[np.ix_(passed, task.joints)]
-    wanted = np.zeros(frame.size)
-    if len(times) > 2:
-        slopes = PchipInterpolator(times, points).derivative()(times[1:-1]) / task.velocity
-        wanted[frame.v[1:-1]] = slopes.clip(-1.0, 1.0)
-    cost, box = np.zeros(frame.size), frame.box.copy()
-    for columns in (frame.v, frame.a):
-        box[columns] = np.sort(np.stack([x[columns], wanted[columns]], axis=-1), axis=-1)
-        cost[columns] = np.sign(x[columns] - wanted[columns])
-    return cost, box
+    T = durations[:, None]
+    ends = _Ends(
+        *(v[:-1] * T, a[:-1] * T**2, v[1:] * T, a[1:] * T**2),
+        *(task.velocity * T, task.acceleration * T**2, task.jerk * T**3),
+    )
+    ways = _ways(ends, task.displacements)
+    lengths, pieces, passages = [], [], np.zeros(problem.n_segments + 1)
+    for row, k in enumerate(task.segments):
+        breaks, values = _mixed([(switches[row], bends[row]) for switches, bends in ways])
+        h = np.diff(breaks)
+        coefficients = np.zeros((len(h), problem.dof, 4))
+        coefficients[:, :, 0] = problem.waypoints[k]
+        moved = _integrated(h, problem.waypoints[k, task.joints], ends.of(row), values)
+        coefficients[:, task.joints] = moved / durations[row] ** np.arange(4)
+        lengths.append(h * durations[row])
+        pieces.append(coefficients)
+        passages[k + 1] = lengths[-1].sum()
+    moves = np.concatenate(pieces)
+    if not np.isfinite(moves).all():
+        return None
+    return Trajectory(np.concatenate(lengths), moves, np.cumsum(passages))
 
 
 @dataclass(frozen=True)
 class _Ends:
-    """All segments of all joints, (m,) each, in normalised time; jerk 0 where unlimited."""
+    """All joints in one segment (n,), or in all (K, n), in normalised time; J is 0 where unlimited."""
 
     v0: Array
     W0: Array
@@ -97,37 +73,45 @@ class _Ends:
     A: Array
     J: Array
 
-    def farthest(self, sign: float, share: Array) -> tuple[Array, Array, Array]:
-        """Switches (m, 6), whether it cruises, how far it goes, with a share of A and J."""
-        limited = self.J > 0.0
-        A, J = share * self.A, np.where(limited, share * self.J, 1.0)
-        v0, W0, v1, W1 = (sign * end for end in (self.v0, self.W0, self.v1, self.W1))
-        six, cruises = farthest(v0, W0, v1, W1, self.V, A, J)
-        plain, cruises_plainly = farthest_without_jerk(v0, v1, self.V, A)
-        six = np.where(limited[:, None], six, plain)
-        cruises = np.where(limited, cruises, cruises_plainly)
-        J = np.where(limited, J, 0.0)
-        point = (v0, W0, v1, W1, self.V, A, J)
-        both = [_dot(distance_coefficients(six, which), point) for which in (False, True)]
-        return six, cruises, np.where(cruises, both[1], both[0])
+    @property
+    def limited(self) -> Truths:
+        return self.J > 0.0
 
-    def can(self, d: Array, share: Array) -> Array:
+    def of(self, row: int) -> _Ends:
+        """Those of one segment."""
+        return _Ends(*(end[row] for end in vars(self).values()))
+
+    def farthest(self, sign: float, share: Array) -> tuple[Array, Truths, Array]:
+        """Switches (..., 6), whether it cruises, how far it goes, with a share of A and J."""
+        A, J = share * self.A, np.where(self.limited, share * self.J, 1.0)
+        ends = (sign * end for end in (self.v0, self.W0, self.v1, self.W1))
+        v0, W0, v1, W1, V, A, J = (x.ravel() for x in (*ends, self.V, A, J))
+        six, cruises = farthest(v0, W0, v1, W1, V, A, J, _STEPS)
+        plain, plainly = farthest_without_jerk(v0, v1, V, A)
+        limited = self.limited.ravel()
+        six, cruises = np.where(limited[:, None], six, plain), np.where(limited, cruises, plainly)
+        point = [v0, W0, v1, W1, V, A, np.where(limited, J, 0.0)]
+        turns, stays = (_sum(distance_coefficients(six, which), point) for which in (False, True))
+        shape = share.shape
+        distance = np.where(cruises, stays, turns).reshape(shape)
+        return six.reshape(*shape, 6), cruises.reshape(shape), distance
+
+    def can(self, d: Array, share: Array) -> Truths:
         """Whether a displacement d can be had with a share of A and J."""
-        limited = self.J > 0.0
-        A, J = share * self.A, np.where(limited, share * self.J, 1.0)
-        steep = np.maximum(np.abs(self.W0), np.abs(self.W1)) <= A
+        A, J = share * self.A, np.where(self.limited, share * self.J, 1.0)
+        can = np.maximum(np.abs(self.W0), np.abs(self.W1)) <= A
         for v, W in ((self.v0, self.W0), (self.v1, self.W1)):
-            steep &= np.abs(v) + np.where(limited, W**2 / (2.0 * J), 0.0) <= self.V
+            can &= np.abs(v) + np.where(self.limited, W**2 / (2.0 * J), 0.0) <= self.V
         for sign in (1.0, -1.0):
-            W0, W1 = sign * self.W0, sign * self.W1
-            two = np.where(limited[:, None], fastest(W0, W1, A, J), [0.0, 1.0])
-            gain = _dot(speed_coefficients(two), (W0, W1, A, np.where(limited, J, 0.0)))
-            steep &= sign * (self.v1 - self.v0) <= gain
-            steep &= sign * d <= self.farthest(sign, share)[2]
-        return np.asarray(steep)
+            W0, W1, A_, J_ = (x.ravel() for x in (sign * self.W0, sign * self.W1, A, J))
+            gain = _sum(speed_coefficients(fastest(W0, W1, A_, J_)), [W0, W1, A_, J_])
+            gain = np.where(self.limited, gain.reshape(A.shape), A)
+            can &= sign * (self.v1 - self.v0) <= gain
+            can &= sign * d <= self.farthest(sign, share)[2]
+        return can
 
     def gentlest(self, d: Array) -> Array:
-        """The least share of A and J with which a displacement d can be had, (m,)."""
+        """The least share of A and J with which displacements d can be had."""
         low, high = np.zeros_like(d), np.ones_like(d)
         for _ in range(_BISECTIONS):
             middle = 0.5 * (low + high)
@@ -136,86 +120,64 @@ class _Ends:
         return high
 
 
-def _dot(coefficients: tuple[Array, ...], point: tuple[Array, ...]) -> Array:
-    return np.asarray(sum(c * p for c, p in zip(coefficients, point, strict=True)))
+def _sum(coefficients: tuple[Array, ...], point: list[Array]) -> Array:
+    return np.asarray(sum(c * x for c, x in zip(coefficients, point, strict=True)))
 
 
-def _assembled(problem: Problem, task: Task, durations: Array, v: Array, a: Array) -> Trajectory:
-    K, n = task.displacements.shape
-    T = np.repeat(durations, n)
-    limits = [np.tile(limit, K) for limit in (task.velocity, task.acceleration, task.jerk)]
-    v0, a0, v1, a1 = (part.ravel() for part in (v[:-1], a[:-1], v[1:], a[1:]))
-    V, A, J = limits[0] * T, limits[1] * T**2, limits[2] * T**3
-    ends = _Ends(v0 * T, a0 * T**2, v1 * T, a1 * T**2, V, A, J)
-    d = task.displacements.ravel()
+def _ways(ends: _Ends, d: Array) -> list[tuple[Array, Array]]:
+    """Farthest forwards, farthest backwards: breaks (K, n, 8), and jerks, or accelerations, between
+    them (K, n, 7), weighted so that the sum of both covers d.
+    """
     share = ends.gentlest(d)
-    ways = [_way(ends, sign, share) for sign in (1.0, -1.0)]
-    lengths, pieces, passages = [], [], np.zeros(problem.n_segments + 1)
-    for row, k in enumerate(task.segments):
-        mine = slice(row * n, (row + 1) * n)
-        start = problem.waypoints[k]
-        breaks, values = _mixed([(b[mine], w[mine]) for b, w in ways], ends, mine, d[mine])
-        h = np.diff(breaks) * durations[row]
-        coefficients = np.zeros((len(h), problem.dof, 4))
-        coefficients[:, :, 0] = start
-        for i, j in enumerate(task.joints):
-            limited = task.jerk[i] > 0.0
-            value = values[:, i] / durations[row] ** (3 if limited else 2)
-            coefficients[:, j] = _integrated(h, start[j], v[row, i], a[row, i], value, limited)
-        lengths.append(h)
-        pieces.append(coefficients)
-        passages[k + 1] = h.sum()
-    return Trajectory(np.concatenate(lengths), np.concatenate(pieces), np.cumsum(passages))
+    found, covered = [], []
+    for sign in (1.0, -1.0):
+        six, cruises, _ = ends.farthest(sign, share)
+        pattern = np.where(ends.limited[..., None], _JERKS, _ACCELERATIONS)
+        pattern[..., 3] = np.where(cruises | ~ends.limited, 0.0, -1.0)
+        size = sign * share * np.where(ends.limited, ends.J, ends.A)
+        outer = np.zeros((*share.shape, 1))
+        breaks = np.concatenate([outer, six, outer + 1.0], axis=-1)
+        found.append((breaks, pattern * size[..., None]))
+        covered.append(_covered(ends, *found[-1]))
+    most, least = covered
+    spread = np.where(most > least, most - least, 1.0)
+    ahead = np.where(most > least, (d - least) / spread, 0.5)
+    weights = (ahead, 1.0 - ahead)
+    return [(b, w * part[..., None]) for (b, w), part in zip(found, weights, strict=True)]
 
 
-def _way(ends: _Ends, sign: float, share: Array) -> tuple[Array, Array]:
-    """Breaks (m, 8) of the farthest motion, and its jerks, or accelerations, between them (m, 7)."""
-    six, cruises, _ = ends.farthest(sign, share)
-    limited = ends.J > 0.0
-    pattern = np.where(
-        limited[:, None], [1.0, 0.0, -1.0, 0.0, -1.0, 0.0, 1.0], [0.0, 1.0, 0.0, 0.0, 0.0, -1.0, 0.0]
-    )
-    pattern[:, 3] = np.where(cruises | ~limited, 0.0, -1.0)
-    m = len(share)
-    breaks = np.concatenate([np.zeros((m, 1)), six, np.ones((m, 1))], axis=1)
-    return breaks, pattern * (sign * share * np.where(limited, ends.J, ends.A))[:, None]
+def _mixed(ways: list[tuple[Array, Array]]) -> tuple[Array, Array]:
+    """Breaks (m + 1,) common to all joints of a segment, and the sum of both ways, (m, n)."""
+    breaks = np.unique(np.concatenate([switches.ravel() for switches, _ in ways]))
+    breaks = breaks[np.diff(breaks, prepend=-1.0) > _CLOSE]
+    breaks = np.append(breaks[breaks < 1.0 - _CLOSE], 1.0)
+    total = np.zeros((len(breaks) - 1, len(ways[0][0])))
+    for switches, values in ways:
+        # means, as breaks that are closer than that are one
+        sums = np.cumsum(values * np.diff(switches), axis=1)
+        for j in range(total.shape[1]):
+            total[:, j] += np.diff(np.interp(breaks, switches[j], np.append(0.0, sums[j])))
+    return breaks, total / np.diff(breaks)[:, None]
 
 
-def _mixed(ways: list[tuple[Array, Array]], ends: _Ends, mine: slice, d: Array) -> tuple[Array, Array]:
-    """Breaks (m + 1,) common to all joints, and the mixture that covers d, (m, n)."""
-    limited = ends.J[mine] > 0.0
-    most, least = (_covered(b, w, ends.v0[mine], ends.W0[mine], limited) for b, w in ways)
-    spread = most - least
-    share = np.where(spread > 0.0, (d - least) / np.where(spread > 0.0, spread, 1.0), 0.5)
-    breaks = np.unique(np.concatenate([b.ravel() for b, _ in ways]))
-    breaks = np.append(breaks[:-1][np.diff(breaks) > 1e-12], 1.0)
-    middles = 0.5 * (breaks[1:] + breaks[:-1])
-    found = np.zeros((len(middles), len(d)))
-    for (b, w), part in zip(ways, (share, 1.0 - share), strict=True):
-        for j in range(len(d)):
-            which = np.clip(np.searchsorted(b[j], middles) - 1, 0, 6)
-            found[:, j] += part[j] * w[j, which]
-    return breaks, found
-
-
-def _covered(breaks: Array, values: Array, v: Array, a: Array, limited: Array) -> Array:
-    """Displacement from jerks, or accelerations, between breaks: (m,)."""
-    x = np.zeros_like(v)
-    for h, value in zip(np.diff(breaks).T, values.T, strict=True):
-        a = np.where(limited, a, value)
-        j = np.where(limited, value, 0.0)
-        x = x + h * (v + h * (a / 2.0 + h * j / 6.0))
-        v, a = v + h * (a + h * j / 2.0), a + h * j
+def _covered(ends: _Ends, breaks: Array, values: Array) -> Array:
+    """Displacements by jerks, or accelerations, between breaks."""
+    x, v, W = np.zeros_like(ends.v0), ends.v0, ends.W0
+    for i in range(values.shape[-1]):
+        h, value = breaks[..., i + 1] - breaks[..., i], values[..., i]
+        W, bend = np.where(ends.limited, W, value), np.where(ends.limited, value, 0.0)
+        x = x + h * (v + h * (W / 2.0 + h * bend / 6.0))
+        v, W = v + h * (W + h * bend / 2.0), W + h * bend
     return x
 
 
-def _integrated(h: Array, x: float, v: float, a: float, values: Array, limited: bool) -> Array:
-    """Coefficients (m, 4) of one joint from its jerks, or accelerations."""
-    found = np.zeros((len(h), 4))
+def _integrated(h: Array, x: Array, ends: _Ends, values: Array) -> Array:
+    """Coefficients (m, n, 4) of the pieces of lengths h (m,) from x (n,) on."""
+    found = np.zeros((*values.shape, 4))
+    v, W = ends.v0, ends.W0
     for i, (step, value) in enumerate(zip(h, values, strict=True)):
-        a, j = (a, value) if limited else (value, 0.0)
-        found[i] = x, v, a / 2.0, j / 6.0
-        x += step * (v + step * (a / 2.0 + step * j / 6.0))
-        v += step * (a + step * j / 2.0)
-        a += step * j
+        W, bend = np.where(ends.limited, W, value), np.where(ends.limited, value, 0.0)
+        found[i] = np.stack([x, v, W / 2.0, bend / 6.0], axis=1)
+        x = x + step * (v + step * (W / 2.0 + step * bend / 6.0))
+        v, W = v + step * (W + step * bend / 2.0), W + step * bend
     return found

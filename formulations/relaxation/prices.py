@@ -1,18 +1,18 @@
 """What each limit costs: the derivative of the bound, from the multipliers.
 
-With the point held fixed in SI units, a row's multiplier times the derivative of the row by the logarithm
-of a limit is the derivative of the bound. So ``savings`` are the seconds saved per relative increase of a
-limit, to first order: 10 % more of it saves a tenth of that. Since stretching time by s divides the
-limits by s, s^2, s^3, a bound whose boxes do not matter obeys
+With the point held fixed in SI units, a row's multiplier times the derivative of the row by the
+logarithm of a limit is the derivative of the bound. So ``savings`` are the seconds saved per relative
+increase of a limit, to first order: 10 % more of it saves a tenth of that. Since stretching time by s
+divides the limits by s, s^2 and s^3, a bound on which the boxes have no influence obeys
 
-    sum of savings by velocity + 2 by acceleration + 3 by jerk = bound.                          (13)
+    sum of savings by velocity + 2 by acceleration + 3 by jerk = bound.                        (12)
 """
 
 from __future__ import annotations
 
 import numpy as np
 
-from formulations.problem import Array
+from formulations.problem import Array, Problem
 from formulations.relaxation.cuts import (
     CRUISE,
     DISTANCE,
@@ -30,10 +30,11 @@ from formulations.relaxation.reach import distance_coefficients, speed_coefficie
 from formulations.relaxation.rows import Frame
 
 
-def savings(program: Program, solution: Solution) -> Array:
+def savings(problem: Problem, program: Program, solution: Solution) -> Array:
     """Seconds saved per relative increase of velocity, acceleration, jerk limits, (3, K, n).
 
-    A limit at a waypoint counts half to each of the segments that meet there.
+    A limit at a waypoint counts half to each of the segments that meet there. Limits that the horizon
+    sets count for nothing.
     """
     frame, x = program.frame, solution.x
     found = np.zeros((3, frame.K, frame.n))
@@ -49,7 +50,18 @@ def savings(program: Program, solution: Solution) -> Array:
         price = np.where(bound, -reduced[columns] * x[columns], 0.0)[1:-1]
         found[quantity, :-1] += 0.5 * price
         found[quantity, 1:] += 0.5 * price
-    return found
+    return _attributed(problem, frame, found)
+
+
+def _attributed(problem: Problem, frame: Frame, found: Array) -> Array:
+    """Prices of the limits in force as those of the problem's own: see ``Task.of``."""
+    task = frame.task
+    V, A, J = problem.limits.derivatives[:, task.joints]
+    own = task.acceleration >= A
+    by_both = ~own & np.isclose(task.acceleration, np.sqrt(2.0 * J * V), rtol=1e-12)
+    shared = np.where(by_both, 0.5 * found[1], 0.0)
+    velocity = np.where(task.velocity >= V, found[0], 0.0) + shared
+    return np.stack([velocity, np.where(own, found[1], 0.0), found[2] + shared])
 
 
 def _shares(frame: Frame, kind: int, cuts: Cuts, x: Array) -> tuple[Array, Array, Array]:

@@ -5,7 +5,6 @@ from __future__ import annotations
 import math
 import time
 from dataclasses import dataclass
-from typing import Any
 
 import highspy
 import numpy as np
@@ -19,6 +18,7 @@ from formulations.relaxation.separation import separate
 _OPTIONS = {
     "output_flag": False,
     "threads": 1,
+    "small_matrix_value": 1e-12,  # it would drop coefficients
     "primal_feasibility_tolerance": 1e-10,  # HiGHS's least: the bound does not rest on it, the cuts do
     "dual_feasibility_tolerance": 1e-10,
 }
@@ -50,10 +50,10 @@ class Solution:
 class Program:
     """min cost x over the frame's rows and those of the cuts found so far."""
 
-    def __init__(self, frame: Frame, cuts: Cuts, *, options: dict[str, Any] | None = None) -> None:
+    def __init__(self, frame: Frame, cuts: Cuts) -> None:
         self.frame = frame
-        self.highs: Any = highspy.Highs()
-        for option, value in (_OPTIONS | (options or {})).items():
+        self.highs = highspy.Highs()
+        for option, value in _OPTIONS.items():
             self.highs.setOptionValue(option, value)
         self.highs.addVars(frame.size, frame.box[:, 0].copy(), frame.box[:, 1].copy())
         self.rows = frame.fixed()
@@ -119,8 +119,9 @@ class Program:
             self.add(cuts)
         return self._solution(cost, converged)
 
-    def _run(self, deadline: float) -> Any:
+    def _run(self, deadline: float) -> highspy.HighsModelStatus:
         """Solve from the last basis; from scratch if that goes wrong."""
+        status = highspy.HighsModelStatus.kNotset
         for _ in range(2):
             left = max(deadline - time.perf_counter(), 1e-3)
             self.highs.setOptionValue("time_limit", self.highs.getRunTime() + left)
@@ -134,15 +135,18 @@ class Program:
     def _solution(self, cost: Array, converged: bool) -> Solution:
         status = self.highs.getModelStatus()
         solution = self.highs.getSolution()
-        y = -np.array(solution.row_dual)
+        x, y = np.array(solution.col_value), -np.array(solution.row_dual)
+        if len(y) != len(self.rows):  # HiGHS gave up before it had any
+            x, y = self.frame.box.mean(axis=1), np.zeros(len(self.rows))
         empty = False
         if status == highspy.HighsModelStatus.kInfeasible:
             _, known, ray = self.highs.getDualRay()
-            y = -np.array(ray) if known else y
-            empty = self.certify(0.0 * cost, y) > 0.0
+            if known:
+                y = -np.array(ray)
+                empty = self.certify(0.0 * cost, y) > 0.0
         bound = np.inf if empty else self.certify(cost, y)
         name = self.highs.modelStatusToString(status)
-        return Solution(name, np.array(solution.col_value), y, bound, converged, empty)
+        return Solution(name, x, y, bound, converged, empty)
 
     def certify(self, cost: Array, multipliers: Array) -> float:
         """Safe lower bound of cost x from any multipliers (n_rows,)."""

@@ -1,24 +1,24 @@
 """The relaxation's variables and rows, all of the form a x <= b, in finite boxes.
 
-Variables, each of order 1: the duration T of a segment, 1 / T and T^2; the velocity v and acceleration a
-of a joint at a waypoint; W = T a at both ends of a segment. Rows:
+Variables, each of order 1: the duration T of a segment, 1 / T and T^2; velocity v and acceleration a of
+a joint at a waypoint; W = T a at both ends of a segment. Rows:
 
-    sum of T <= H                                                                                 (6)
-    1 / T <= 1 / l + 1 / h - T / (l h)       secant over l <= T <= h                              (7)
-    1 / T >= 2 / t - T / t^2                 tangent at t                                         (8)
-    T^2 <= (h + 2 t) T + h t^2 / T - 2 h t - t^2     (T - t)^2 (h - T) / T >= 0                    (9)
-    (T - t) (a - e) of one sign              T at a bound t, a at a bound e (McCormick 1976)      (10)
-    |v| + (2 c W - c^2 T^2) / (2 J) <= V     tangent of |v| + a^2 / (2 J) <= V, c = a / T         (11)
+    sum of T <= H                                                                                (5)
+    1 / T <= 1 / l + 1 / h - T / (l h)       secant over l <= T <= h                             (6)
+    1 / T >= 2 / t - T / t^2                 tangent at t                                        (7)
+    T^2 <= (h + 2 t) T + h t^2 / T - 2 h t - t^2     (T - t)^2 (h - T) / T >= 0                   (8)
+    (T - t) (a - e) of one sign              T at a bound t, a at a bound e (McCormick 1976)     (9)
+    |v| + (2 c W - c^2 T^2) / (2 J) <= V     tangent of |v| + a^2 / (2 J) <= V, c = a / T        (10)
     (1), (2) and (3) of ``reach``.
 
-(9) is what makes the relaxation tight: with (7) and (8) it bounds the convex hull of the curve
-(T, 1 / T, T^2) where it matters; the secant of T^2 is the case t = l. In (11) a falls to 0, or rose from
-it, with |j| <= J at a speed within V. The least sum of T over these rows is a lower bound whatever t, c
-and switches they are posed at.
+(8) is what makes the relaxation tight: with (6) and (7) it bounds the convex hull of the curve
+(T, 1 / T, T^2) where it matters; the secant of T^2 is the case t = l. In (10) a falls to 0, or rose
+from it, with |j| <= J at a speed within V. The least sum of T over these rows is a lower bound whatever
+t, c and switches they are posed at.
 
-Rounding: coefficients are the exact ones but for at most 32 roundings, none of which cancels. Each right
-hand side is raised by 64 u sum |a_i| max |x_i|, u = 2^-53, so that the rows in floats hold for every
-motion.
+Rounding: coefficients are the exact ones but for at most 32 roundings, none of which cancels. Each
+right hand side is raised by 64 u sum |a_i| max |x_i|, u = 2^-53, so that the rows in floats hold for
+every motion.
 """
 
 from __future__ import annotations
@@ -26,6 +26,7 @@ from __future__ import annotations
 from dataclasses import dataclass
 
 import numpy as np
+from numpy.typing import NDArray
 from scipy.sparse import csr_array, vstack
 
 from formulations.problem import Array
@@ -58,6 +59,12 @@ class Rows:
 
     def __len__(self) -> int:
         return len(self.upper)
+
+    def normal(self) -> Rows:
+        """The same rows with largest coefficients between 1 and 2: powers of two do not round."""
+        largest = abs(self.matrix).max(axis=1).toarray().ravel()
+        scale = np.exp2(-np.floor(np.log2(largest)))
+        return Rows(csr_array(self.matrix.multiply(scale[:, None])), self.upper * scale)
 
     @staticmethod
     def joined(blocks: list[Rows]) -> Rows:
@@ -117,12 +124,12 @@ class Frame:
         return box
 
     def fixed(self) -> Rows:
-        """Rows (6) and (7)."""
+        """Rows (5) and (6)."""
         low, high, one = self.low, self.high, np.ones(self.K)
         share = list(self.typical[:, None] / self.task.horizon)
         total = self._rows([np.array([column]) for column in self.T], share, np.ones(1))
         columns = [self.inverse, self.T]
-        secants = self._rows(columns, [one, 1.0 / (low * high)], 1.0 / low + 1.0 / high)
+        secants = self._rows(columns, [one, 1.0 / (low * high)], 1.0 / low + 1.0 / high).normal()
         return Rows.joined([total, secants])
 
     def of(self, cuts: Cuts) -> Rows:
@@ -142,17 +149,21 @@ class Frame:
         if kind in (TANGENT, HULL):
             t = np.clip(cuts.at[:, 0] / self.typical[k], self.low[k], self.high[k])
             if kind == TANGENT:
-                return self._rows([self.T[k], self.inverse[k]], [-1.0 / t**2, -one], -2.0 / t)
+                rows = self._rows([self.T[k], self.inverse[k]], [-1.0 / t**2, -one], -2.0 / t)
+                return rows.normal()
             h = self.high[k]
             columns = [self.square[k], self.T[k], self.inverse[k]]
-            return self._rows(columns, [one, -(h + 2.0 * t), -h * t**2], -(2.0 * h * t + t**2))
+            a = [one, -(h + 2.0 * t), -h * t**2]
+            return self._rows(columns, a, -(2.0 * h * t + t**2)).normal()
         if kind in (PRODUCT_AT_START, PRODUCT_AT_END):
             end = int(kind == PRODUCT_AT_END)
             t, e, side = self.corner(cuts, end)
             columns = [self.W[k, j, end], self.a[k + end, j], self.T[k]]
             return self._rows(columns, [-side, side * t, side * e], side * t * e)
         ramp, bend = self.ramp[k, j], self.bend[k, j]
+        limited = self.task.has_jerk[j]
         if kind in (PEAK_AT_START, PEAK_AT_END):
+            _require(limited)
             end = int(kind == PEAK_AT_END)
             c = cuts.at[:, 0] * self.typical[k] / self.task.acceleration[j]
             share = ramp**2 / bend
@@ -163,6 +174,7 @@ class Frame:
             c_v, c_W, c_A, c_J = stop_coefficients(cuts.at[:, :2])
             # time turned: W changes its sign, and the joint comes from where it would go
             c_W = -c_W if end else c_W
+            _require(limited | (c_J == 0.0))
             room = self.room[k + end, j, ((sign > 0.0) != bool(end)).astype(int)] / self.typical[k]
             columns = [
                 self.v[k + end, j],
@@ -177,15 +189,17 @@ class Frame:
         T, square = self.T[k], self.square[k]
         if kind == SPEED:
             c_W0, c_W1, c_A, c_J = speed_coefficients(cuts.at[:, :2])
+            _require(limited | (c_J == 0.0))
             a = [sign, -sign, -sign * c_W0 * ramp, -sign * c_W1 * ramp, -c_A * ramp, -c_J * bend]
             return self._rows([v1, v0, W0, W1, T, square], a, np.zeros(len(k)))
         c_v0, c_W0, c_v1, c_W1, c_V, c_A, c_J = distance_coefficients(cuts.at, kind == CRUISE)
+        _require(limited | (c_J == 0.0))
         a = [sign * self.distance[k, j], -sign * c_v0, -sign * c_v1, -sign * c_W0 * ramp]
         a += [-sign * c_W1 * ramp, -c_A * ramp, -c_J * bend]
         return self._rows([self.inverse[k], v0, v1, W0, W1, T, square], a, c_V)
 
     def corner(self, cuts: Cuts, end: int) -> tuple[Array, Array, Array]:
-        """The bounds t, e of a product (10) and the sign of the row, each (m,)."""
+        """The bounds t, e of a product (9) and the sign of the row, each (m,)."""
         k, j, corner = cuts.segment, cuts.joint, cuts.at[:, 0]
         t = np.where(corner % 2 == 0, self.low[k], self.high[k])
         upper = (corner == 1) | (corner == 2)
@@ -199,3 +213,9 @@ class Frame:
         starts = np.arange(0, a.size + 1, a.shape[1])
         matrix = csr_array((a.ravel(), where.ravel(), starts), shape=(len(upper), self.size))
         return Rows(matrix, upper + _ALLOWANCE * size)
+
+
+def _require(sound: NDArray[np.bool_]) -> None:
+    """Rows that speak of a jerk need a limit of it."""
+    if not sound.all():
+        raise ValueError("a row needs a jerk limit where there is none")

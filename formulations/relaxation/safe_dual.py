@@ -2,7 +2,9 @@
 
 For  min c x  subject to  A x <= b,  l <= x <= u  and any multipliers y >= 0,
 
-    c x  >=  c x + y (A x - b)  =  -b y + (c + A' y) x  >=  -b y + sum over i of min over [l_i, u_i].   (12)
+    c x  >=  c x + y (A x - b)  =  (c + A' y) x - b y,                                           (11)
+
+the least of which over the box is known variable by variable.
 
 Nothing is asked of y, so the bound holds whatever the solver returned; it is close if y is.
 
@@ -24,7 +26,7 @@ _UNIT = 2.0**-53
 
 
 def safe_bound(cost: Array, matrix: csr_array, upper: Array, box: Array, multipliers: Array) -> float:
-    """Lower bound of cost x on {matrix x <= upper, box[:, 0] <= x <= box[:, 1]} (12), -inf at worst.
+    """Lower bound of cost x on {matrix x <= upper, box[:, 0] <= x <= box[:, 1]} (11), -inf at worst.
 
     cost (n,), upper (m,), box (n, 2): finite. multipliers (m,): any; negative ones count as 0.
     """

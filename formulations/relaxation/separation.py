@@ -2,11 +2,9 @@
 
 from __future__ import annotations
 
-from typing import Any
-
 import numpy as np
-from numpy.typing import NDArray
 
+from formulations.problem import Array
 from formulations.relaxation.cuts import (
     CRUISE,
     DISTANCE,
@@ -20,11 +18,10 @@ from formulations.relaxation.cuts import (
     STOP_AT_START,
     TANGENT,
     Cuts,
+    Indices,
 )
 from formulations.relaxation.rows import Frame
 from formulations.relaxation.switches import farthest, farthest_without_jerk, fastest, soonest_stop
-
-Array = NDArray[Any]  # of floats, indices or truth values
 
 
 def separate(frame: Frame, x: Array, tolerance: float) -> Cuts:
@@ -38,7 +35,7 @@ def separate(frame: Frame, x: Array, tolerance: float) -> Cuts:
 
 
 def _durations(frame: Frame, x: Array) -> Cuts:
-    """(8) at T itself; (9) where it is least: t = (h - T) / (h / T - 1)."""
+    """(7) at T itself; (8) where it is least: t = (h - T) / (h / T - 1)."""
     T, inverse, h = x[frame.T], x[frame.inverse], frame.high
     t = (h - T) / np.maximum(h * inverse - 1.0, 1e-300)
     k = np.arange(frame.K)
@@ -47,7 +44,7 @@ def _durations(frame: Frame, x: Array) -> Cuts:
 
 
 def _products(frame: Frame) -> list[Cuts]:
-    """(10) in all four corners, wherever it is not plain: at the ends of the motion a = 0."""
+    """(9) in all four corners, wherever it is not plain: at the ends of the motion a = 0."""
     joints = np.flatnonzero(frame.task.has_jerk)
     found = []
     for end, kind in enumerate((PRODUCT_AT_START, PRODUCT_AT_END)):
@@ -59,7 +56,7 @@ def _products(frame: Frame) -> list[Cuts]:
 
 
 def _peaks(frame: Frame, x: Array) -> list[Cuts]:
-    """(11) at the ratio W / T^2 itself."""
+    """(10) at the ratio W / T^2 itself."""
     joints = np.flatnonzero(frame.task.has_jerk)
     found = []
     for end, kind in enumerate((PEAK_AT_START, PEAK_AT_END)):
@@ -110,6 +107,5 @@ def _stops(frame: Frame, x: Array, sign: float) -> list[Cuts]:
     return found
 
 
-def _grid(K: int, joints: Array) -> tuple[Array, Array]:
-    k, j = np.meshgrid(np.arange(K), joints, indexing="ij")
-    return k.ravel(), j.ravel()
+def _grid(K: int, joints: Indices) -> tuple[Indices, Indices]:
+    return np.repeat(np.arange(K), len(joints)), np.tile(joints, K)

@@ -1,9 +1,9 @@
 """The motion that goes farthest in one segment: where its jerk switches.
 
-One joint from (v0, W0) to (v1, W1) in unit time, |v| <= V, |W| <= A, |dW/ds| <= J. Raising W as fast and
-lowering it as late as the ends allow puts the largest mean of v at
+One joint from (v0, W0) to (v1, W1) in unit time, |v| <= V, |W| <= A, |dW/ds| <= J. Raising W as fast
+and lowering it as late as the ends allow puts the largest mean of v at
 
-    W(s) = max(min(W0 + J s, A, J (c - s)), -A, W1 - J (1 - s))                                       (4)
+    W(s) = max(min(W0 + J s, A, J (c - s)), -A, W1 - J (1 - s))                                  (4)
 
 with the one c that ends at v1; if v would pass V, each end reaches V by itself and the joint cruises.
 
@@ -13,25 +13,24 @@ ones make those that cut deepest.
 
 from __future__ import annotations
 
-from typing import Any
-
 import numpy as np
 from numpy.typing import NDArray
 
-Array = NDArray[Any]  # of floats, indices or truth values
+from formulations.problem import Array
 
+Truths = NDArray[np.bool_]
 
-_STEPS, _SETTLED = 60, 1e-16
+_STEPS = 12  # for a cut; a motion that is to end as it should takes more
 
 
 def farthest(
-    v0: Array, W0: Array, v1: Array, W1: Array, V: Array, A: Array, J: Array
-) -> tuple[Array, Array]:
+    v0: Array, W0: Array, v1: Array, W1: Array, V: Array, A: Array, J: Array, steps: int = _STEPS
+) -> tuple[Array, Truths]:
     """Switches (m, 6) in [0, 1], ascending, and whether there is a piece at top speed, (m,).
 
     All arguments (m,). Where the ends cannot meet in unit time, the nearest c.
     """
-    c = _end_speed_met(v1 - v0, W0, W1, A, J)
+    c = _end_speed_met(v1 - v0, W0, W1, A, J, steps)
     s1, s2, s5, s6 = _corners(c, W0, W1, A, J)
     peak = v0 + _gains(c, W0, W1, A, J)[0]
     start = _to_top_speed(v0, W0, V, A, J)
@@ -39,9 +38,8 @@ def farthest(
     cruises = (peak > V) & (c > 0.0) & (c < 1.0) & (start[2] <= end[2])
     six = np.where(cruises, [*start, *end[::-1]], [s1, s2, s5, s2, s5, s6])
     six = np.where(np.isfinite(six), six, 0.5).clip(0.0, 1.0).T
-    ordered = np.maximum.accumulate(six[:, [0, 1, 2, 3, 4, 5]], axis=1)
-    four = np.maximum.accumulate(six[:, [0, 1, 4, 5]], axis=1)
-    return np.where(cruises[:, None], ordered, four[:, [0, 1, 1, 2, 2, 3]]), cruises
+    plain = np.maximum.accumulate(six[:, [0, 1, 4, 5]], axis=1)[:, [0, 1, 1, 2, 2, 3]]
+    return np.where(cruises[:, None], np.maximum.accumulate(six, axis=1), plain), cruises
 
 
 def fastest(W0: Array, W1: Array, A: Array, J: Array) -> Array:
@@ -54,47 +52,40 @@ def fastest(W0: Array, W1: Array, A: Array, J: Array) -> Array:
     return np.maximum.accumulate(two, axis=1)
 
 
-def farthest_without_jerk(v0: Array, v1: Array, V: Array, A: Array) -> tuple[Array, Array]:
+def farthest_without_jerk(v0: Array, v1: Array, V: Array, A: Array) -> tuple[Array, Truths]:
     """The same where the jerk is not limited: accelerate, cruise, brake."""
     up, down = (V - v0) / A, 1.0 - (V - v1) / A
     middle = 0.5 * (1.0 + (v1 - v0) / A)
     cruises = up < down
-    up, down = (
-        np.where(cruises, up, middle).clip(0.0, 1.0),
-        np.where(cruises, down, middle).clip(0.0, 1.0),
-    )
-    down = np.maximum(up, down)
+    up = np.where(cruises, up, middle).clip(0.0, 1.0)
+    down = np.maximum(np.where(cruises, down, middle).clip(0.0, 1.0), up)
     zero, one = np.zeros_like(up), np.ones_like(up)
     return np.stack([zero, up, up, down, down, one], axis=1), cruises
 
 
 def soonest_stop(v0: Array, W0: Array, A: Array, J: Array) -> Array:
     """Switches (m, 2) of the way to rest: down with J to -A, at -A until v = 0. J infinite: at once."""
-    speed = np.maximum(v0, 0.0)
-    with np.errstate(invalid="ignore"):
-        bent = np.where(np.isinf(J), 0.0, (W0 + np.sqrt(W0**2 + 2.0 * J * speed)) / J)
-        at_limit = np.where(np.isinf(J), 0.0, (W0 + A) / J)
-        left = speed + np.where(np.isinf(J), 0.0, (W0**2 - A**2) / (2.0 * J))
-    late = bent > at_limit
-    s1 = np.where(late | np.isinf(J), at_limit, bent)
-    s2 = np.where(late | np.isinf(J), at_limit + np.maximum(left, 0.0) / A, bent)
+    speed, plain = np.maximum(v0, 0.0), np.isinf(J)
+    J = np.where(plain, 1.0, J)
+    stop, at_limit = (W0 + np.sqrt(W0**2 + 2.0 * J * speed)) / J, (W0 + A) / J
+    left = speed + (W0**2 - A**2) / (2.0 * J)
+    s1 = np.where(plain, 0.0, np.minimum(stop, at_limit))
+    s2 = np.where(stop > at_limit, at_limit + np.maximum(left, 0.0) / A, stop)
+    s2 = np.where(plain, speed / A, s2)
     return np.maximum.accumulate(np.stack([s1, s2], axis=1).clip(0.0, 1.0), axis=1)
 
 
-def _end_speed_met(gain: Array, W0: Array, W1: Array, A: Array, J: Array) -> Array:
+def _end_speed_met(gain: Array, W0: Array, W1: Array, A: Array, J: Array, steps: int) -> Array:
     """The c of (4) that gains as much speed: Newton's method, bisection where it leaves the bracket."""
     low = W0 / J
     high = np.maximum(1.0 + W1 / J, low)
     c = 0.5 * (low + high)
-    for _ in range(_STEPS):
+    for _ in range(steps):
         s2, s5 = _corners(c, W0, W1, A, J)[1:3]
         excess = _gains(c, W0, W1, A, J)[1] - gain
         low, high = np.where(excess < 0.0, c, low), np.where(excess > 0.0, c, high)
         step = c - excess / np.maximum(J * (s5 - s2), 1e-300)
-        step = np.where((step >= low) & (step <= high), step, 0.5 * (low + high))
-        if np.abs(step - c).max(initial=0.0) < _SETTLED:
-            break
-        c = step
+        c = np.where((step >= low) & (step <= high), step, 0.5 * (low + high))
     return c
 
 

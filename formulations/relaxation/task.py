@@ -20,10 +20,10 @@ class Task:
     asks less of it. A joint that never moves can stand still; one whose velocity alone is limited gives
     T >= |d| / V and no more.
 
-    displacements: (K, n) [rad], each rounded once. room: (K + 1, n, 2), from a waypoint down and up to the
-    position limits, infinite without one. velocity, acceleration, jerk: (n,), limits that
-    every motion of at most ``horizon`` seconds keeps: jerk 0 where unlimited. segments (K,), joints
-    (n,): their numbers in the problem.
+    displacements: (K, n) [rad], each rounded once. room: (K + 1, n, 2) [rad], from each waypoint down
+    and up to the position limits, infinite without one. velocity, acceleration, jerk: (n,), limits
+    that every motion of at most ``horizon`` seconds keeps, jerk 0 where unlimited. segments (K,),
+    joints (n,): their numbers in the problem.
     """
 
     displacements: Array
@@ -41,11 +41,13 @@ class Task:
 
         From rest to rest, and with an acceleration that starts and ends at 0 if jerk is limited,
 
-            |v| <= min(V, A H / 2, J H^2 / 8),   |a| <= min(A, sqrt(2 J V), J H / 2):
+            |v| <= min(V, A H / 2, J H^2 / 16),   |a| <= min(A, sqrt(2 J V), J H / 4).
 
-        a joint that has a speed must have had the time to gain it and must have the time to lose it;
-        and while an acceleration a is gained and lost the velocity changes by a^2 / J, from -V to V at
-        most. slack: how far outside the position limits still counts as inside [rad]; the problem's.
+        What is gained must be lost: the greatest speed v in v / A at least, and from a = 0 to a = 0 in
+        2 sqrt(v / J). While an acceleration a comes and goes, in 2 a / J at least, the velocity changes
+        by a^2 / J, which is 2 V at most and takes 2 a / J to be undone.
+
+        slack: how far outside the position limits still counts as inside [rad]; the problem's if None.
         """
         slack = problem.position_slack if slack is None else slack
         limits = problem.limits
@@ -54,8 +56,8 @@ class Task:
         joints = np.flatnonzero(moves & limited)
         segments = np.flatnonzero((problem.displacements != 0.0).any(axis=1))
         V, A, J = limits.velocity[joints], limits.acceleration[joints], limits.jerk[joints]
-        top = np.minimum(V, UP * np.minimum(A * horizon / 2.0, J * horizon**2 / 8.0))
-        steepest = np.minimum(A, UP * np.minimum(np.sqrt(2.0 * J * V), J * horizon / 2.0))
+        top = np.minimum(V, UP * np.minimum(A * horizon / 2.0, J * horizon**2 / 16.0))
+        steepest = np.minimum(A, UP * np.minimum(np.sqrt(2.0 * J * V), J * horizon / 4.0))
         passed = np.append(segments, segments[-1:] + 1)
         x = problem.waypoints[np.ix_(passed, joints)][..., None]
         bounds = problem.position_bounds[joints]

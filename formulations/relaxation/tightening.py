@@ -1,8 +1,8 @@
 """Narrower boxes for the motions that take at most the horizon, and with them a tighter relaxation.
 
-Each bound of a duration, or of an acceleration at a waypoint, is itself the optimum of the relaxation for
-another cost, certified the same way (optimality-based bound tightening, Gleixner et al. 2017). The rows
-(6), (8) and (9) are the tighter the narrower the boxes: what they lose is of second order in the width.
+Each bound of a duration, or of an acceleration at a waypoint, is itself the optimum of the relaxation
+for another cost, certified the same way (optimality-based bound tightening, Gleixner et al. 2017). The
+rows (6), (8) and (9) lose by the square of the boxes' widths.
 """
 
 from __future__ import annotations
