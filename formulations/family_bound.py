@@ -206,7 +206,6 @@ class _Pursuit:
         progress: Callable[[float, int], None] | None,
     ) -> None:
         self.problem, self.begin, self.record, self.progress = problem, begin, record, progress
-        self.family = FAMILIES[problem.family]
         self.simple = displacement_bound(problem)
         self.boxes, self.restarts = 0, 0
         self.best: Proof | None = None
@@ -251,6 +250,7 @@ class _Pursuit:
             if proof.proved:
                 return "proved"
             if improved:
+                self.restarts += 1
                 continue
             if not proof.stuck:
                 return "time limit"
@@ -280,7 +280,8 @@ class _Pursuit:
             if self.progress is not None:
                 self.progress(self.best.seconds if self.best else 0.0, self.boxes)
             clock = time.perf_counter()
-            if self.anytime and not proof.proved and clock - looked > _LOOK * cost:
+            looks = self.anytime and not proof.proved and self.restarts < _RESTARTS
+            if looks and clock - looked > _LOOK * cost:
                 if self._improve(proof.durations()):
                     return True
                 looked = time.perf_counter()

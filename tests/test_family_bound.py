@@ -202,7 +202,7 @@ def test_z1_as_a_quintic_is_proved(z1_as_quintic: FamilyBound) -> None:
 @pytest.mark.parametrize("kind", ["V", "VA", "VAJ"])
 def test_random_quintic_problems_are_proved(kind: str) -> None:
     rng = np.random.default_rng(11)
-    for n, dof in ((1, 2), (2, 1), (3, 2), (5, 1), (12, 1)):
+    for n, dof in ((1, 2), (2, 1), (3, 2), (6, 1)):
         problem = as_quintic(random_problem(rng, n, dof, kind, least=-1.0))
         holds(family_bound(problem, gap=1e-5, optimum=anyhow(problem)), 1e-5)
 
@@ -236,6 +236,7 @@ def test_the_bound_of_every_motion_is_nearly_that_of_one_segment() -> None:
         problem = Problem.of([[0.0], [d]], Limits.of(v, a, dof=1))
         fastest = d / v + v / a if d * a > v * v else 2.0 * np.sqrt(d / a)
         assert fastest * 0.95 < every_motion(problem, 16).seconds < fastest
+        assert fastest * 0.99 < every_motion(problem, 48).seconds < fastest
 
 
 def test_with_velocities_alone_every_motion_is_bounded_by_displacement() -> None:
@@ -245,7 +246,7 @@ def test_with_velocities_alone_every_motion_is_bounded_by_displacement() -> None
 
 
 @pytest.mark.slow
-@pytest.mark.parametrize("family", FAMILIES)
+@pytest.mark.parametrize("family", ["quintic", "b-spline-3", "b-spline-5"])
 def test_no_motion_of_a_family_is_faster_than_its_bound(family: str) -> None:
     rng = np.random.default_rng(3)
     for kind, spread in (("V", 0.7), ("VA", 0.4), ("VAJ", 0.2)):
@@ -422,7 +423,7 @@ def lost_in_the_chain(problem: Problem, points: Any, L: float, shrink: float) ->
 def test_no_feasible_quintic_is_lost_by_a_discard_or_a_cut() -> None:
     rng = np.random.default_rng(8)
     total = mutants = noticed = 0
-    for i in range(9):
+    for i in range(6):
         n = int(rng.integers(1, 5))
         still = int(rng.integers(n)) if i % 4 == 3 else -1
         kind = ("V", "VA", "VAJ")[i % 3]
@@ -431,7 +432,7 @@ def test_no_feasible_quintic_is_lost_by_a_discard_or_a_cut() -> None:
         if i % 3 == 2:  # with position limits that this motion keeps
             excess = FAMILIES["quintic"].position_excess(closed(problem), base[None])[0]
             problem = closed(problem, float(excess) + 0.01)
-        L = float(base.sum()) * (1.0 + 1e-9, 1.001, 1.03)[i // 3]
+        L = float(base.sum()) * (1.0 + 1e-9, 1.001, 1.03)[i // 2]
         points = feasible_points(problem, L, base, rng)
         total += len(points)
         assert lost_in_the_chain(problem, points, L, 1.0) == 0
@@ -439,8 +440,8 @@ def test_no_feasible_quintic_is_lost_by_a_discard_or_a_cut() -> None:
         points = feasible_points(problem, L, base, rng)
         mutants += len(points) > 0
         noticed += lost_in_the_chain(problem, points, L, 0.98) > 0
-    assert total > 2000
-    assert noticed == mutants > 5  # with limits that are 2 % too low the test does fail
+    assert total > 1500
+    assert noticed == mutants > 3  # with limits that are 2 % too low the test does fail
 
 
 def closed(problem: Problem, margin: float = 0.0) -> Problem:

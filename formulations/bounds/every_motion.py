@@ -121,7 +121,8 @@ def _dual(problem: Problem, cells: int) -> tuple[Array, Array]:
     free = [casadi.vec(part) for part in (mu, p, size, turn, root)]
     reach = np.repeat(np.where(limited, np.inf, 0.0), n * cells + 1)  # no p without a limit
     others = np.full(sum(part.numel() for part in free[2:]), np.inf)
-    bounds = np.concatenate([np.full(mu.numel(), np.inf), reach, others])
+    pinned = np.where(np.arange(mu.numel()) % (n + 1) == 0, 0.0, np.inf)  # differences of mu count
+    bounds = np.concatenate([pinned, reach, others])
     solver = casadi.nlpsol(
         "dual",
         "ipopt",
