@@ -196,8 +196,10 @@ def test_other_families_agree_with_differential_evolution(
 @pytest.mark.slow
 @pytest.mark.parametrize("case", THREE)
 def test_every_joint_alone_agrees_with_differential_evolution(case: str) -> None:
-    problem = load(case)
+    problem, known = load(case), load("ur5")
     for joint in problem.moving_joints:
+        if case == "ur5-corrected" and (problem.waypoints == known.waypoints)[:, joint].all():
+            continue  # the same joint as in ur5
         agrees(problem.joint(joint), optimum(case, joint))
 
 
