@@ -16,6 +16,7 @@ from dataclasses import dataclass, replace
 from pathlib import Path
 
 import numpy as np
+from numpy.typing import ArrayLike
 from tqdm import tqdm
 
 from compare import commands
@@ -112,7 +113,7 @@ def extremes() -> Iterator[Problem]:
     usual = (2.0, 5.0, 20.0)
     apart = Limits.of([1e-2, 1.0, 1e2], [1e2, 1.0, 1e-2], [1e4, 1.0, 1e2], dof=3)
     rest = [[0, 1], [0, 1], [1, 1], [1, 1], [1, 1], [-1, 1], [-1, 1]]
-    kinds = {
+    kinds: dict[str, tuple[ArrayLike, Limits]] = {
         "30 waypoints, 1 joint": (drawn(30, 1), Limits.of(*usual, dof=1)),
         "30 waypoints, 6 joints": (drawn(30, 6), Limits.of(*usual, dof=6)),
         "30 waypoints, 12 joints": (drawn(30, 12), Limits.of(*usual, dof=12)),
