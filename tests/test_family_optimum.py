@@ -34,7 +34,7 @@ from formulations import (
     load,
     longest_segment,
 )
-from formulations.family_optimum import shortest_segments
+from formulations.exchange import shortest_segments
 
 THREE = [case for case in CASES if load(case).family == "3-5-3"]
 NO_SHRINKING = (Phase.explicit, Phase.generate)  # each example costs a second
