@@ -6,9 +6,10 @@ import os
 import time
 
 from compare import bias, commands, proofs, suite
+from compare.honest import key_of_paper
 from compare.objective import CODINGS
 from compare.report import render
-from compare.run import climb, swarm, warm_up, workers
+from compare.run import audits, climb, honest, swarm, warm_up, workers
 from compare.store import Store
 from formulations import CASES, InputError, load
 from metaheuristics import ALGORITHMS
@@ -34,7 +35,7 @@ def main() -> int:
     size.add_argument(
         "--quick",
         action="store_true",
-        help="2 seeds, 420 evaluations, few swarms, no proofs, no B-spline",
+        help="2 seeds, 420 evaluations, few swarms, no proofs, no audits, no B-spline",
     )
     size.add_argument(
         "--full", action="store_true", help="30 seeds, the papers' own budgets, more controls"
@@ -102,7 +103,10 @@ def main() -> int:
     warm_up(problems)
     with workers(options.jobs) as pool:
         climb(pool, problems, store, certify=not options.quick)
+        if not options.quick:
+            audits(pool, sorted({paper for case in cases if (paper := key_of_paper(case))}), store)
         swarm(pool, runs, problems, store)
+        honest(pool, problems, store)
         if name in PROOFS and options.cases is None:
             proofs.study(pool, proofs.tasks(*PROOFS[name]), store.folder)
         if name in BIAS and options.cases is None:
