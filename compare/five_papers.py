@@ -14,10 +14,11 @@ from compare.statistics import bound_of
 class PaperRow:
     """One paper, or one reading of it. Times in s; None where there is none.
 
-    key: of the paper, case: of the reading. published: the shortest total it prints for the whole arm.
-    keeps: in words. stretch: the least factor on its durations that keeps the limits, above 1 only;
-    honest: the total after it. optimum: of its spline family, proved or not; fastest: of all motions
-    known. faults: kinds found, each with how often and whether one is proved.
+    key: of the paper, case: of the reading. published: the shortest total it prints for the whole arm,
+    by: whose. keeps: its limits, in words. stretch: the least factor on its durations that keeps them,
+    above 1 only; honest: the total after it; leaves: there is none, as its shape leaves the position
+    limits at any speed. optimum: of its spline family, proved or not; fastest: of all motions known.
+    faults: the kinds found, each with how often and whether one of them is proved.
     """
 
     key: str
@@ -28,6 +29,7 @@ class PaperRow:
     keeps: str
     stretch: float | None
     honest: float | None
+    leaves: bool
     optimum: float | None
     proved: bool
     fastest: float | None
@@ -74,6 +76,7 @@ def _row(
         keeps=_keeps(data, by, best),
         stretch=stretch if best is not None and best["keeps"] is False else None,
         honest=None if mended is None else mended["seconds"],
+        leaves=mended is not None and mended["seconds"] is None,
         optimum=rungs.get("family", {}).get("seconds"),
         proved=ladder is not None and bound_of(ladder)[1] == "certified",
         fastest=rungs.get("free_form", {}).get("seconds"),
@@ -85,10 +88,11 @@ def _keeps(data: Mapping[str, Any], by: str, best: Mapping[str, Any] | None) -> 
     """Whether the published motion keeps its limits, in words."""
     if best is None or best["keeps"] is None:
         return "cannot be judged"
-    judged = [m["feasible"] for m in data["motions"] if m["joint"] is None and m["by"] == by]
-    if "no limits" in judged:
+    whole = (m["feasible"] for m in data["motions"] if m["joint"] is None and m["by"] == by)
+    word = next(whole, "cannot be judged")
+    if word == "no limits":
         return "prints none; " + ("keeps" if best["keeps"] else "breaks") + " those assumed"
-    return "as far as its digits tell" if "within rounding" in judged else str(*judged[:1])
+    return "as far as its digits tell" if word == "within rounding" else str(word)
 
 
 def _faults(findings: Iterable[Mapping[str, Any]]) -> tuple[tuple[str, int, bool], ...]:
