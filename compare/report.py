@@ -61,7 +61,7 @@ def render(
     context["studies"] = {
         name: study for name, study in STUDIES.items() if (folder / "figures" / f"{name}.svg").exists()
     }
-    context |= _papers(store, folder, context["cases"])
+    context |= of_the_papers(store, folder, context["cases"])
     bias = folder / "bias.json"
     context["bias"] = json.loads(bias.read_text("utf-8"))["summary"] if bias.exists() else {}
     context["figures"] = {
@@ -91,7 +91,7 @@ def environment(folder: Path) -> jinja2.Environment:
     return made
 
 
-def _papers(store: Store, folder: Path, cases: list[str]) -> dict[str, Any]:
+def of_the_papers(store: Store, folder: Path, cases: list[str]) -> dict[str, Any]:
     """What the report says of the papers: audits, honest tables, moving arms; empty if never made."""
     audits, honest = store.audits(), store.honest()
     pages = {

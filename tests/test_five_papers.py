@@ -13,6 +13,7 @@ from compare.audit import FAULTS
 from compare.audit.findings import IN_SHORT
 from compare.five_papers import five_papers
 from compare.honest import honest_table, key_of_paper
+from compare.report import environment, of_the_papers
 from compare.run import audits
 from compare.store import Store
 from formulations import CASES, InputError, load
@@ -98,6 +99,13 @@ def test_audits_are_stored_kept_and_made_again(tmp_path: Path) -> None:
         path.write_text(json.dumps(data | {"digest": "another"}))
         audits(pool, ["z1"], store)
         assert store.audits()["z1"]["audits"][0]["paper"] == "z1"
+    # a paper that has a page of its own is linked to it
+    assert of_the_papers(store, tmp_path, ["z1"])["pages"] == {}
+    (tmp_path / "papers" / "z1.html").write_text("003")
+    context = of_the_papers(store, tmp_path, ["z1"])
+    page = environment(tmp_path).get_template("papers.html.j2").render(context)
+    assert 'href="papers/z1.html"' in page
+    assert "003: Unitree Z1" in page
     path.write_text("{")
     with pytest.raises(InputError, match=r"audit\.json: cannot be read"):
         store.audits()
