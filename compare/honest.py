@@ -110,7 +110,7 @@ def _whole(paper: Paper, row: Row, problem: Problem) -> list[Line]:
     verdict = motion.verdict
     total, note = motion.total, ""
     if row.total is not None and not row.total.low <= total <= row.total.high:
-        note = f"its times add up to {total:.4f} s"
+        note = f"its times add up to {total:.4f} s; they are judged"
     claimed = total if row.total is None else row.total.value
     keeps, what = motion.stretch[0] <= 1.0 + TOLERANCE, f"the same ({row.by}), made feasible"
     lines = [Line(f"published ({row.by})", claimed, keeps, note, "published", row.by, verdict.stretch)]

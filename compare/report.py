@@ -16,6 +16,7 @@ from compare import commands
 from compare.audit import chapter
 from compare.figures import RUNG_NAMES, draw_case
 from compare.five_papers import five_papers
+from compare.honest import key_of_paper
 from compare.objective import CODINGS
 from compare.run import each, workers
 from compare.statistics import Summary, best_claim, best_row, bound_of, summaries
@@ -94,16 +95,11 @@ def environment(folder: Path) -> jinja2.Environment:
 def of_the_papers(store: Store, folder: Path, cases: list[str]) -> dict[str, Any]:
     """What the report says of the papers: audits, honest tables, moving arms; empty if never made."""
     audits, honest = store.audits(), store.honest()
-    pages = {
-        data["paper"]: f"papers/{key}.html"
-        for key, stored in audits.items()
-        for data in stored["audits"]
-        if (folder / "papers" / f"{key}.html").exists()
-    }
+    written = {case: f"papers/{key_of_paper(case)}.html" for case in cases}
     entries = chapter(data for stored in audits.values() for data in stored["audits"])
     return {
         "papers": [row for row in five_papers(audits, honest, store.ladders()) if row.case in cases],
-        "pages": pages,
+        "pages": {case: page for case, page in written.items() if (folder / page).exists()},
         "chapters": {entry["name"]: [entry] for entry in entries},
         "honest": honest,
         "arms": {c: f"figures/{c}-arm" for c in cases if (folder / f"figures/{c}-arm.svg").exists()},

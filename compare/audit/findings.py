@@ -30,7 +30,7 @@ IN_SHORT: dict[str, str] = {
     "tables": "tables contradict each other",
     "rule": "longest-segment rule breaks the limits",
     "ranking": "order of the methods changes",
-    "sum": "arithmetic",
+    "sum": "sums that are wrong",
     "point": "angles and points disagree",
     "reach": "points out of reach",
     "table": "printed arm does not fit",
