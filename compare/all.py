@@ -1,4 +1,4 @@
-"""``python -m compare.all``: every case, swarm and coding, and the report."""
+"""``python -m compare.all``: every case, swarm and coding, the papers' audits, and the report."""
 
 from __future__ import annotations
 
@@ -27,8 +27,8 @@ def main() -> int:
     """Run a comparison and write its report."""
     parser = commands.parser(
         "all",
-        "Run every swarm on every case in every coding against the family's optimum, and write the\n"
-        "report: DIR/index.html, report.md, rows.csv and all figures.",
+        "Run every swarm on every case in every coding against the family's optimum, audit the papers\n"
+        "of the cases, and write the report: DIR/index.html, report.md, rows.csv and all figures.",
         "python -m compare.all --cases sr4c,ur5 --swarms pso,mipso --seeds 30 --out report",
     )
     size = parser.add_mutually_exclusive_group()
