@@ -1,4 +1,4 @@
-"""``python -m compare.all``: every case, swarm and coding, and the report."""
+"""``python -m compare.all``: every case, swarm and coding, the papers' audits, and the report."""
 
 from __future__ import annotations
 
@@ -6,9 +6,10 @@ import os
 import time
 
 from compare import bias, commands, proofs, suite
+from compare.honest import key_of_paper
 from compare.objective import CODINGS
 from compare.report import render
-from compare.run import climb, swarm, warm_up, workers
+from compare.run import audits, climb, honest, swarm, warm_up, workers
 from compare.store import Store
 from formulations import CASES, InputError, load
 from metaheuristics import ALGORITHMS
@@ -26,15 +27,15 @@ def main() -> int:
     """Run a comparison and write its report."""
     parser = commands.parser(
         "all",
-        "Run every swarm on every case in every coding against the family's optimum, and write the\n"
-        "report: DIR/index.html, report.md, rows.csv and all figures.",
+        "Run every swarm on every case in every coding against the family's optimum, audit the papers\n"
+        "of the cases, and write the report: DIR/index.html, report.md, rows.csv and all figures.",
         "python -m compare.all --cases sr4c,ur5 --swarms pso,mipso --seeds 30 --out report",
     )
     size = parser.add_mutually_exclusive_group()
     size.add_argument(
         "--quick",
         action="store_true",
-        help="2 seeds, 420 evaluations, few swarms, no proofs, no B-spline",
+        help="2 seeds, 420 evaluations, few swarms, no proofs, no audits, no B-spline",
     )
     size.add_argument(
         "--full", action="store_true", help="30 seeds, the papers' own budgets, more controls"
@@ -102,7 +103,10 @@ def main() -> int:
     warm_up(problems)
     with workers(options.jobs) as pool:
         climb(pool, problems, store, certify=not options.quick)
+        if not options.quick:
+            audits(pool, sorted({paper for case in cases if (paper := key_of_paper(case))}), store)
         swarm(pool, runs, problems, store)
+        honest(pool, problems, store)
         if name in PROOFS and options.cases is None:
             proofs.study(pool, proofs.tasks(*PROOFS[name]), store.folder)
         if name in BIAS and options.cases is None:

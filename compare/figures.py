@@ -14,7 +14,9 @@ from matplotlib.collections import LineCollection
 from matplotlib.figure import Figure
 from matplotlib.lines import Line2D
 
+from compare import commands
 from compare.grade import Trace, durations_of
+from compare.motion_picture import fastest_spline
 from compare.split import split, split_figure
 from compare.statistics import best_claim, best_row, bound_of, convergence
 from compare.store import Store, key_of
@@ -62,7 +64,7 @@ RUNG_NAMES = {
 
 
 def draw_case(folder: str, case: str, problem: Problem) -> list[str]:
-    """Draw every figure of one case into ``folder``/figures as SVG and PNG; their names."""
+    """Draw every figure of one case into ``folder``/figures as SVG and PNG, the arm as SVG; their names."""
     store = Store(Path(folder))
     rows = [row for row in store.rows() if row["case"] == case]
     ladder = store.ladders()[case]
@@ -86,6 +88,13 @@ def draw_case(folder: str, case: str, problem: Problem) -> list[str]:
             figure.savefig(target / f"{case}-{name}.png")
         plt.close(figure)
         names.append(f"{case}-{name}")
+    durations = ladder["durations"].get("family")
+    arm = None if durations is None else fastest_spline(case, problem, np.array(durations))
+    if arm is not None:
+        commands.write_text(target / f"{case}-arm.svg", arm)
+        names.append(f"{case}-arm")
+    else:  # that of an earlier run is not this one's
+        (target / f"{case}-arm.svg").unlink(missing_ok=True)
     return names
 
 

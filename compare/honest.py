@@ -42,12 +42,17 @@ class Line:
     """One line of the table. seconds: None where there is none; then note says why.
 
     keeps: the limits, as far as the printed digits tell; None for bounds and for what cannot be judged.
+    key: published, feasible, swarm, or a rung of the ladder. by: whose, if published. stretch: least
+    factor on all durations that keeps the limits.
     """
 
     what: str
     seconds: float | None
     keeps: bool | None
     note: str = ""
+    key: str = ""
+    by: str = ""
+    stretch: float | None = None
 
 
 def honest_table(
@@ -65,18 +70,22 @@ def honest_table(
         if rung is None:
             continue
         keeps = None if rung["kind"] == "lower" or rung["seconds"] is None else True
-        lines.append(
-            Line(what, rung["seconds"], keeps, rung["note"] if rung["seconds"] is None else "")
-        )
+        note = rung["note"] if rung["seconds"] is None else ""
+        lines.append(Line(what, rung["seconds"], keeps, note, key))
     return lines
 
 
 def paper_of(case: str) -> Paper | None:
     """The paper, or the reading of one, that a case comes from."""
+    key = key_of_paper(case)
+    return next((p for p in load_papers(key) if p.name == case), None) if key else None
+
+
+def key_of_paper(case: str) -> str | None:
+    """Name of the shipped paper that a case or a variant of it comes from."""
     for name in PAPERS:
-        for paper in load_papers(name):
-            if paper.name == case:
-                return paper
+        if any(paper.name == case for paper in load_papers(name)):
+            return name
     return None
 
 
@@ -85,10 +94,14 @@ def _published(paper: Paper, problem: Problem) -> list[Line]:
     wholes = [row for row in paper.rows if row.joint is None]
     if not wholes:
         return [
-            Line(f"published ({t.by})", t.value.value, None, "its waypoints are not printed")
+            Line(
+                f"published ({t.by})", t.value.value, None,
+                "through waypoints that are not printed; all below is through other ones",
+                "published", t.by,
+            )
             for t in paper.totals
             if t.joint is None
-        ]
+        ]  # fmt: skip
     return [line for row in wholes for line in _whole(paper, row, problem)]
 
 
@@ -97,15 +110,16 @@ def _whole(paper: Paper, row: Row, problem: Problem) -> list[Line]:
     verdict = motion.verdict
     total, note = motion.total, ""
     if row.total is not None and not row.total.low <= total <= row.total.high:
-        note = f"its times add up to {total:.4f} s"
+        note = f"its times add up to {total:.4f} s; they are judged"
     claimed = total if row.total is None else row.total.value
-    lines = [Line(f"published ({row.by})", claimed, motion.stretch[0] <= 1.0 + TOLERANCE, note)]
-    slower = "" if row.limits else "under the limits assumed for this case"
+    keeps, what = motion.stretch[0] <= 1.0 + TOLERANCE, f"the same ({row.by}), made feasible"
+    lines = [Line(f"published ({row.by})", claimed, keeps, note, "published", row.by, verdict.stretch)]
+    slower = "" if row.limits else "the paper prints no limits: under those assumed for this case"
     kept = [fault for fault in verdict.faults if "position of joint" in fault]
     if kept:  # a shape that leaves the position limits leaves them at any speed
-        return [*lines, Line(f"the same ({row.by}), made feasible", None, None, kept[0])]
+        return [*lines, Line(what, None, None, kept[0], "feasible", row.by)]
     seconds = total * max(verdict.stretch, 1.0)
-    return [*lines, Line(f"the same ({row.by}), made feasible", seconds, True, slower)]
+    return [*lines, Line(what, seconds, True, slower, "feasible", row.by)]
 
 
 def _swarm(case: str, rows: Iterable[dict[str, Any]]) -> Line:
@@ -119,5 +133,5 @@ def _swarm(case: str, rows: Iterable[dict[str, Any]]) -> Line:
     verified = [seconds for seconds in mine if seconds is not None]
     what = f"its swarm ({swarm or 'none'}) with the exact stretch"
     if not verified:
-        return Line(what, None, None, "not run" if not mine else "no verified motion")
-    return Line(what, float(np.median(verified)), True, f"median of {len(mine)} seeds")
+        return Line(what, None, None, "not run" if not mine else "no verified motion", "swarm")
+    return Line(what, float(np.median(verified)), True, f"median of {len(mine)} seeds", "swarm")

@@ -1,8 +1,8 @@
 """``python -m compare.motion_picture CASE``: the arm as a stick figure that moves, one small SVG.
 
 Two views of the same motion in true time, the tool's path and the waypoints in each. The animation is
-SMIL: it runs wherever a browser shows the picture, without a script; elsewhere the arm stands still at
-its first waypoint, and its other waypoints show as shadows.
+SMIL: it runs wherever a browser shows the picture, without a script; elsewhere, and for readers who
+have asked for less motion, the arm stands still at its first waypoint. All waypoints show as shadows.
 """
 
 from __future__ import annotations
@@ -16,7 +16,7 @@ import numpy as np
 
 from compare import commands
 from compare.style import BLUE, GREEN, GREY, VERMILION
-from formulations import InputError, Trajectory, family_optimum, load
+from formulations import FAMILIES, InputError, Problem, Trajectory, family_optimum, load
 from formulations.arms import ARMS, Arm, load_arm
 from formulations.problem import Array
 
@@ -24,6 +24,11 @@ _RATE = 25.0  # frames a second, of true time
 _FEWEST, _MOST = 24, 180  # frames
 _PANEL, _MARGIN, _TITLE, _FOOT = 360.0, 26.0, 50.0, 44.0  # px
 _PAUSE = 1.0  # s that the last frame stays
+# SMIL knows nothing of what readers prefer: what moves is hidden, what stands still is shown
+_CALM = (
+    "<style>.still{display:none}@media (prefers-reduced-motion: reduce){.moving{display:none}"
+    ".still{display:inline}}</style>"
+)
 
 
 @dataclass(frozen=True)
@@ -64,6 +69,16 @@ def skeleton(arm: Arm, joints: Array) -> Array:
     return np.concatenate([origin[..., :1, :], points.reshape(*points.shape[:-3], -1, 3)], axis=-2)
 
 
+def fastest_spline(case: str, problem: Problem, durations: Array) -> str | None:
+    """The optimum of a case's family, durations (n_segments,) [s], as an SVG; None without an arm."""
+    arm = arm_of(case)
+    if arm is None:
+        return None
+    trajectory = FAMILIES[problem.family].trajectory(problem, durations)
+    title = f"{arm.title}: fastest {problem.family} spline, {trajectory.seconds:.4f} s"
+    return motion_picture(arm, trajectory, title)
+
+
 def motion_picture(arm: Arm, trajectory: Trajectory, title: str) -> str:
     """A motion of an arm as an animated SVG. trajectory: joints of the arm [rad]."""
     if trajectory.dof != arm.dof:
@@ -95,8 +110,9 @@ def motion_picture(arm: Arm, trajectory: Trajectory, title: str) -> str:
             frames = [_points(p) for p in place(points)]
             values = ";".join([*frames, frames[-1]])
             return (
-                f'<polyline points="{frames[0]}" {style}><animate attributeName="points" '
+                f'<polyline class="moving" points="{frames[0]}" {style}><animate attributeName="points" '
                 f'values="{values}" keyTimes="{keys}" {run}/></polyline>'
+                f'<polyline class="still" points="{frames[0]}" {style}/>'
             )
 
         parts.append(
@@ -127,7 +143,7 @@ def motion_picture(arm: Arm, trajectory: Trajectory, title: str) -> str:
     return (
         f'<svg xmlns="http://www.w3.org/2000/svg" viewBox="0 0 {width:.0f} {height:.0f}" '
         f'width="{width:.0f}" height="{height:.0f}" {look} stroke-linejoin="round">\n'
-        f"<title>{escape(title)}</title>\n"
+        f"<title>{escape(title)}</title>\n{_CALM}\n"
         f'<rect width="100%" height="100%" fill="#fff"/>\n'
         f'<text x="{_MARGIN}" y="20" fill="#000" font-size="13">{escape(title)}</text>\n'
         f"{body}\n</svg>\n"
@@ -153,9 +169,9 @@ def _clock(trajectory: Trajectory, width: float, total: float, scale: float) -> 
     end = trajectory.seconds
     parts = [
         f'<rect x="{left}" y="{y}" width="{long:.1f}" height="4" fill="#e3e6ea"/>',
-        f'<rect x="{left}" y="{y}" width="0" height="4" fill="{BLUE}"><animate attributeName="width" '
-        f'values="0;{long:.1f};{long:.1f}" keyTimes="0;{end / total:.4f};1" dur="{total:.3f}s" '
-        f'repeatCount="indefinite"/></rect>',
+        f'<rect class="moving" x="{left}" y="{y}" width="0" height="4" fill="{BLUE}">'
+        f'<animate attributeName="width" values="0;{long:.1f};{long:.1f}" '
+        f'keyTimes="0;{end / total:.4f};1" dur="{total:.3f}s" repeatCount="indefinite"/></rect>',
     ]
     room = left
     for time in trajectory.passage_times:
@@ -194,14 +210,14 @@ def main() -> int:
     parser.add_argument("case", metavar="CASE", help=f"a shipped case with an arm ({', '.join(ARMS)})")
     parser.add_argument("--out", metavar="FILE", help="where to write it; CASE.svg if left out")
     options = parser.parse_args()
-    arm = arm_of(options.case)
-    if arm is None:
+    if arm_of(options.case) is None:
         raise InputError(f"motion picture: no arm is known for {options.case!r} ({', '.join(ARMS)})")
     problem = load(options.case)
     optimum = family_optimum(problem)
-    title = f"{arm.title}: fastest {problem.family} spline, {optimum.seconds:.4f} s"
+    picture = fastest_spline(options.case, problem, optimum.durations)
+    assert picture is not None
     out = Path(options.out or f"{options.case}.svg")
-    commands.write_text(out, motion_picture(arm, optimum.trajectory, title))
+    commands.write_text(out, picture)
     print(f"{out}: {optimum.seconds:.4f} s, {out.stat().st_size / 1000:.0f} kB")
     return commands.DONE
 

@@ -13,7 +13,10 @@ import jinja2
 import numpy as np
 
 from compare import commands
+from compare.audit import chapter
 from compare.figures import RUNG_NAMES, draw_case
+from compare.five_papers import five_papers
+from compare.honest import key_of_paper
 from compare.objective import CODINGS
 from compare.run import each, workers
 from compare.statistics import Summary, best_claim, best_row, bound_of, summaries
@@ -59,26 +62,48 @@ def render(
     context["studies"] = {
         name: study for name, study in STUDIES.items() if (folder / "figures" / f"{name}.svg").exists()
     }
+    context |= of_the_papers(store, folder, context["cases"])
     bias = folder / "bias.json"
     context["bias"] = json.loads(bias.read_text("utf-8"))["summary"] if bias.exists() else {}
     context["figures"] = {
         case: {name: (f"figures/{case}-{name}", caption) for name, caption in FIGURES.items()}
         for case in problems
     }
-    environment = jinja2.Environment(
+    pages = environment(folder)
+    for name in ("report.md", "index.html"):
+        commands.write_text(folder / name, pages.get_template(f"{name}.j2").render(context))
+    return folder / "index.html"
+
+
+def environment(folder: Path) -> jinja2.Environment:
+    """The templates of every page, with their filters; ``inline(NAME)`` puts DIR/NAME.svg into a page."""
+    made = jinja2.Environment(
         loader=jinja2.PackageLoader("compare"),
         autoescape=jinja2.select_autoescape(["html.j2"]),
         trim_blocks=True,
         lstrip_blocks=True,
         undefined=jinja2.StrictUndefined,
     )
-    environment.filters["percent"] = percent
-    environment.filters["number"] = lambda gap: percent(gap).removesuffix(" %")
-    environment.globals["inline"] = lambda name: _inline(folder / f"{name}.svg")
-    environment.globals["shade"] = _shade
-    for name in ("report.md", "index.html"):
-        commands.write_text(folder / name, environment.get_template(f"{name}.j2").render(context))
-    return folder / "index.html"
+    made.filters["percent"] = percent
+    made.filters["number"] = lambda gap: percent(gap).removesuffix(" %")
+    made.filters["seconds"] = lambda seconds: "–" if seconds is None else f"{seconds:.4f}"
+    made.globals["inline"] = lambda name: _inline(folder / f"{name}.svg")
+    made.globals["shade"] = _shade
+    return made
+
+
+def of_the_papers(store: Store, folder: Path, cases: list[str]) -> dict[str, Any]:
+    """What the report says of the papers: audits, honest tables, moving arms; empty if never made."""
+    audits, honest = store.audits(), store.honest()
+    written = {case: f"papers/{key_of_paper(case)}.html" for case in cases}
+    entries = chapter(data for stored in audits.values() for data in stored["audits"])
+    return {
+        "papers": [row for row in five_papers(audits, honest, store.ladders()) if row.case in cases],
+        "pages": {case: page for case, page in written.items() if (folder / page).exists()},
+        "chapters": {entry["name"]: [entry] for entry in entries},
+        "honest": honest,
+        "arms": {c: f"figures/{c}-arm" for c in cases if (folder / f"figures/{c}-arm.svg").exists()},
+    }
 
 
 def percent(gap: float | None) -> str:

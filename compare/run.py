@@ -11,12 +11,16 @@ import sys
 from collections.abc import Callable, Iterable, Iterator
 from concurrent.futures import FIRST_COMPLETED, Future, ProcessPoolExecutor, wait
 from contextlib import contextmanager
+from dataclasses import asdict
 from typing import Any, TypeVar
 
 import numpy as np
 from tqdm import tqdm
 
+from compare.audit import audit, load_papers
+from compare.audit.paper_file import published_text
 from compare.grade import Graded, Run, grade
+from compare.honest import honest_table
 from compare.statistics import bound_of
 from compare.store import Store, key_of
 from formulations import FAMILIES, Problem, ladder
@@ -102,6 +106,52 @@ def swarm(
         for one in graded:
             store.add(one, facts[one.run.case])
     store.sort(runs)
+
+
+def audits(pool: ProcessPoolExecutor, papers: list[str], store: Store) -> None:
+    """The audit of every paper that the store does not have yet; the longest first."""
+    facts = {
+        paper: {
+            "digest": hashlib.sha256(published_text(paper).encode()).hexdigest()[:12],
+            "versions": versions_text(),
+            "machine": machine(),
+        }
+        for paper in papers
+    }
+    kept = store.audits()
+    left = [
+        paper
+        for paper in papers
+        if any(kept.get(paper, {}).get(name) != facts[paper][name] for name in ("digest", "versions"))
+    ]
+    for paper, found in each(pool, "audits", _audit, [(paper,) for paper in sorted(left, key=_work)]):
+        store.write_audit(paper, facts[paper], found)
+
+
+def _work(paper: str) -> float:
+    """Less for what takes longer: proofs, whose boxes double with every segment."""
+    return -sum(len(p.rows) * 2.0**p.n_waypoints for p in load_papers(paper))
+
+
+def _audit(name: str) -> tuple[str, list[dict[str, Any]]]:
+    return name, [audit(paper).to_json() for paper in load_papers(name)]
+
+
+def honest(pool: ProcessPoolExecutor, problems: dict[str, Problem], store: Store) -> None:
+    """What each case's paper should have found, from the ladders and rows of the store."""
+    rows, ladders = store.rows(), store.ladders()
+    calls = [
+        (case, problem, ladders[case], [row for row in rows if row["case"] == case])
+        for case, problem in problems.items()
+    ]
+    for case, lines in each(pool, "honest tables", _honest, calls):
+        store.write_honest(case, lines)
+
+
+def _honest(
+    case: str, problem: Problem, ladder: dict[str, Any], rows: list[dict[str, Any]]
+) -> tuple[str, list[dict[str, Any]]]:
+    return case, [asdict(line) for line in honest_table(problem, ladder, rows)]
 
 
 _BATCH = 5  # runs per call: a run takes milliseconds

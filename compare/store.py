@@ -3,6 +3,8 @@
 rows.csv     one line per run; lines are appended whole, so a killed run leaves a readable file
 traces.jsonl one line per run: best fitness against evaluations
 ladders/     one JSON per case
+honest/      one JSON per case: what its paper should have found
+papers/KEY/audit.json  the audit of a paper and of its variants
 settings.json  what was asked for
 """
 
@@ -63,8 +65,9 @@ class Store:
         """Start afresh: a header and nothing else."""
         commands.write_text(self.rows_file, _line(list(COLUMNS)))
         commands.write_text(self.traces_file, "")
-        for old in (self.folder / "ladders").glob("*.json"):
-            old.unlink()
+        for pattern in ("ladders/*.json", "honest/*.json", "papers/*/audit.json"):
+            for old in self.folder.glob(pattern):
+                old.unlink()
 
     def mend(self) -> None:
         """Keep what was finished: whole lines, rewritten."""
@@ -150,20 +153,47 @@ class Store:
 
     def write_ladder(self, case: str, ladder: dict[str, Any]) -> None:
         """Keep the ladder of a case."""
-        (self.folder / "ladders").mkdir(exist_ok=True)
-        commands.write_json(self.folder / "ladders" / f"{case}.json", ladder)
+        self._write(f"ladders/{case}.json", ladder)
 
     def ladders(self) -> dict[str, dict[str, Any]]:
         """Ladders by case name, in alphabetical order."""
+        return {path.stem: _read(path) for path in sorted(self.folder.glob("ladders/*.json"))}
+
+    def write_honest(self, case: str, lines: list[dict[str, Any]]) -> None:
+        """Keep the honest table of a case."""
+        self._write(f"honest/{case}.json", lines)
+
+    def honest(self) -> dict[str, list[dict[str, Any]]]:
+        """Lines of the honest tables by case name."""
+        return {path.stem: _read(path) for path in sorted(self.folder.glob("honest/*.json"))}
+
+    def write_audit(self, paper: str, facts: dict[str, str], audits: list[dict[str, Any]]) -> None:
+        """Keep the audits of a paper and its variants. facts: what they were made of and by."""
+        self._write(f"papers/{paper}/audit.json", {**facts, "audits": audits})
+
+    def audits(self) -> dict[str, dict[str, Any]]:
+        """By paper: facts and ``audits``, a list."""
         return {
-            path.stem: json.loads(path.read_text("utf-8"))
-            for path in sorted((self.folder / "ladders").glob("*.json"))
+            path.parent.name: _read(path) for path in sorted(self.folder.glob("papers/*/audit.json"))
         }
+
+    def _write(self, name: str, data: Any) -> None:
+        path = self.folder / name
+        path.parent.mkdir(parents=True, exist_ok=True)
+        commands.write_json(path, data)
 
 
 def key_of(row: dict[str, Any]) -> tuple[Any, ...]:
     """The run key of a row."""
     return tuple(row[name] for name in ("case", "coding", "swarm", "seed", "budget", "population"))
+
+
+def _read(path: Path) -> Any:
+    """JSON of a file. Raises InputError if it holds none."""
+    try:
+        return json.loads(path.read_text("utf-8"))
+    except (OSError, ValueError) as error:
+        raise InputError(f"{path}: cannot be read: {error}") from None
 
 
 def _append(path: Path, line: str) -> None:

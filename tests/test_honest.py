@@ -60,7 +60,7 @@ def test_what_does_not_add_up_says_so() -> None:
     lines = honest_table(load("cobot"), ladder_of(family=3.9), [])
     published, feasible, swarm, _ = lines
     assert published.seconds == pytest.approx(3.139)
-    assert published.note == "its times add up to 4.1358 s"
+    assert published.note == "its times add up to 4.1358 s; they are judged"
     # they keep the limit that is assumed for the case
     assert published.keeps is True
     assert feasible.seconds == pytest.approx(4.1358)

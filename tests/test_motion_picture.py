@@ -43,8 +43,14 @@ def test_the_picture_shows_the_motion_in_true_time() -> None:
     assert len(text) < 150_000
     root = ElementTree.fromstring(text)
     assert root.find(f"{SVG}title").text == "a & b"
-    arms = [p for p in root.iter(f"{SVG}polyline") if p.get("stroke-width") == "5"]
+    bones = [p for p in root.iter(f"{SVG}polyline") if p.get("stroke-width") == "5"]
+    arms = [p for p in bones if p.get("class") == "moving"]
     assert len(arms) == len(VIEWS)
+    # who has asked for less motion sees the first frame instead
+    assert "@media (prefers-reduced-motion: reduce){.moving{display:none}" in text
+    assert all(e.get("class") == "moving" for e in root.iter() if e.find(f"{SVG}animate") is not None)
+    still = [p.get("points") for p in bones if p.get("class") == "still"]
+    assert still == [p.get("points") for p in arms]
     for drawn, view in zip(arms, VIEWS, strict=True):
         animation = drawn.find(f"{SVG}animate")
         total = float(animation.get("dur").removesuffix("s"))

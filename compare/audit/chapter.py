@@ -21,7 +21,8 @@ def chapter(audits: Iterable[dict[str, Any]]) -> list[dict[str, Any]]:
     """One entry per paper, ready for a template.
 
     name, title, source, notes; header and rows (cells as text, and whether the motion is feasible);
-    faults and notes_found: lists of kind, meaning, proved and items (where, text), in a fixed order.
+    faults and notes_found: lists of kind, meaning, proved and items (where, text), in a fixed order;
+    what is said of all joints together comes first.
     """
     return [
         {
@@ -32,8 +33,8 @@ def chapter(audits: Iterable[dict[str, Any]]) -> list[dict[str, Any]]:
             "header": HEADER,
             "caption": CAPTION,
             "rows": [{"cells": cells(row), "feasible": row["feasible"]} for row in data["motions"]],
-            "faults": _by_kind(data["findings"], FAULTS),
-            "notes_found": _by_kind(data["findings"], NOTES),
+            "faults": _by_kind(data, FAULTS),
+            "notes_found": _by_kind(data, NOTES),
         }
         for data in audits
     ]
@@ -54,8 +55,10 @@ def _proved(least: float | None, best: float | None) -> str:
     return f"{best:.4f}" if best <= least * (1.0 + _PROVED) else f"{least:.4f}, {best:.4f}"
 
 
-def _by_kind(findings: list[dict[str, Any]], kinds: dict[str, str]) -> list[dict[str, Any]]:
+def _by_kind(data: dict[str, Any], kinds: dict[str, str]) -> list[dict[str, Any]]:
     groups = []
+    whole = {row["where"] for row in data["motions"] if row["joint"] is None}
+    findings = sorted(data["findings"], key=lambda f: f["where"] not in whole)
     for kind, meaning in kinds.items():
         found = [f for f in findings if f["kind"] == kind]
         if found:

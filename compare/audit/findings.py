@@ -22,6 +22,19 @@ FAULTS: dict[str, str] = {
     "reach": "a point out of the arm's reach",
     "table": "the printed arm does not lead to the printed points",
 }
+IN_SHORT: dict[str, str] = {
+    "displacement": "faster than its top speed allows",
+    "minimum": "below the certified minimum",
+    "limits": "breaks its own limits",
+    "other limits": "other limits fit",
+    "tables": "tables contradict each other",
+    "rule": "longest-segment rule breaks the limits",
+    "ranking": "order of the methods changes",
+    "sum": "sums that are wrong",
+    "point": "angles and points disagree",
+    "reach": "points out of reach",
+    "table": "printed arm does not fit",
+}
 NOTES: dict[str, str] = {
     "missing": "cannot be judged",
     "keeps": "keeps its limits",

@@ -6,9 +6,10 @@ import time
 
 import numpy as np
 
-from formulations import FamilyBound, Limits, NoFeasibleMotion, Problem, family_bound, family_optimum
+from formulations import FamilyBound, FamilyOptimum, Limits, Problem, family_bound
 from formulations.bounds.proof import Proof
 from formulations.family_bound import PROVERS
+from formulations.family_optimum import polished, shortest_segments
 from formulations.problem import Array
 
 _GAP, _SECONDS = 1e-5, 4.0  # asked of a certified optimum
@@ -28,13 +29,17 @@ def minimum(problem: Problem) -> FamilyBound:
         *(part.tobytes() for part in (problem.waypoints, limits.derivatives, limits.position)),
     )
     if key not in _known:
-        try:
-            # few starts will do: where there is a better basin, the proof finds it
-            start = family_optimum(problem, random_starts=0)
-        except NoFeasibleMotion:
-            start = None
-        _known[key] = family_bound(problem, gap=_GAP, time_limit=_SECONDS, optimum=start)
+        _known[key] = family_bound(problem, gap=_GAP, time_limit=_SECONDS, optimum=_start(problem))
     return _known[key]
+
+
+def _start(problem: Problem) -> FamilyOptimum | None:
+    """A motion to begin with. One start will do: where there is a better basin, the proof finds it."""
+    shortest = shortest_segments(problem)
+    local = polished(problem, np.sqrt(shortest * shortest.max()))
+    if not np.isfinite(local.seconds):
+        return None
+    return FamilyOptimum(problem, problem.family, local.durations, (local,))
 
 
 def impossible(problem: Problem, halves: Array, seconds: float) -> bool:

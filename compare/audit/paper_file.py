@@ -27,14 +27,18 @@ PAPERS: tuple[str, ...] = tuple(
 )
 
 
+def published_text(name: str) -> str:
+    """The TOML text of a shipped paper."""
+    return (files("compare.audit.published") / f"{name}.toml").read_text("utf-8")
+
+
 def load_papers(name_or_file: str) -> list[Paper]:
     """The shipped paper of that name with its variants, or those of a TOML file.
 
     Raises InputError with one line that names the key.
     """
     if name_or_file in PAPERS:
-        text = (files("compare.audit.published") / f"{name_or_file}.toml").read_text("utf-8")
-        return parse_papers(text, name_or_file)
+        return parse_papers(published_text(name_or_file), name_or_file)
     path = Path(name_or_file)
     try:
         text = path.read_text("utf-8")
