@@ -1,1 +1,11 @@
 """Every table and figure of the five papers that can be made again, printed beside reproduced."""
+
+from __future__ import annotations
+
+from compare.papers import sr4c
+from compare.papers.item import Item
+
+ITEMS: dict[str, tuple[Item, ...]] = {
+    "sr4c": sr4c.ITEMS,
+}
+"""Items by paper, in the order of the papers and of their pages."""

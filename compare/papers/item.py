@@ -36,6 +36,7 @@ class Item:
     make: (full) -> JSON of plain numbers and text, with the papers' budgets if full; a function of a
     module, as it runs in a worker, and the same for the same argument.
     show: that JSON -> what a reader sees; computes nothing but the picture.
+    cost: seconds it takes by default, about: the longest item is started first.
     """
 
     label: str
@@ -43,6 +44,7 @@ class Item:
     make: Callable[[bool], dict[str, Any]]
     show: Callable[[dict[str, Any]], Shown]
     reading: str = ""
+    cost: float = 1.0
 
     @property
     def key(self) -> str:
