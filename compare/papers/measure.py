@@ -10,6 +10,7 @@ from numpy.typing import ArrayLike
 
 from compare.audit.minima import minimum
 from compare.grade import Graded, Run, durations_of, grade
+from compare.papers.printed_motions import used_most
 from compare.suite import Budget
 from formulations import FAMILIES, Problem, check
 from formulations.problem import Array
@@ -53,7 +54,7 @@ def judged(problem: Problem, durations: ArrayLike) -> dict[str, Any]:
         "seconds": verdict.seconds,
         "keeps": verdict.feasible,
         "stretch": verdict.stretch,
-        "worst": "" if verdict.worst is None else str(verdict.worst),
+        "most": used_most(verdict),
         "faults": list(verdict.faults),
     }
 
