@@ -11,7 +11,7 @@ from matplotlib.axes import Axes
 from compare.grade import Trace
 from compare.statistics import best_after
 
-_POINTS = 120  # of a stored curve
+_POINTS = 80  # of a stored curve
 
 
 def descent(traces: Sequence[Trace], population: int, iterations: int) -> dict[str, Any]:
