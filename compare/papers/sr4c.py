@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from compare.papers import sr4c_swarm
+from compare.papers import sr4c_swarm, sr4c_times
 from compare.papers.item import Item
 
-ITEMS: tuple[Item, ...] = (*sr4c_swarm.ITEMS,)
+ITEMS: tuple[Item, ...] = (*sr4c_swarm.ITEMS, *sr4c_times.ITEMS)
