@@ -1,8 +1,11 @@
-"""Paper 000 (Wang et al. 2025, SR4C): every table and figure that can be made again."""
+"""Paper 000 (Wang et al. 2025, SR4C): every table and figure that can be made again, in its order."""
 
 from __future__ import annotations
 
-from compare.papers import sr4c_swarm
+from compare.papers import sr4c_motions, sr4c_swarm, sr4c_times
 from compare.papers.item import Item
 
-ITEMS: tuple[Item, ...] = (*sr4c_swarm.ITEMS,)
+_ORDER = ("Fig 4", "Fig 5", "Table 3", "Table 5", "Figs 7-9", "Table 8", "Fig 10", "Table 9", "Fig 11",
+          "Table 10", "Figs 12-14")  # fmt: skip
+_BY_LABEL = {item.label: item for item in (*sr4c_swarm.ITEMS, *sr4c_times.ITEMS, *sr4c_motions.ITEMS)}
+ITEMS: tuple[Item, ...] = tuple(_BY_LABEL[label] for label in _ORDER)

@@ -1,0 +1,281 @@
+"""Paper 000, its arm and its motions: Table 5, Figs 7-9, Fig. 11, Figs 12-14."""
+
+from __future__ import annotations
+
+from typing import Any
+
+import numpy as np
+
+from compare import table8
+from compare.audit.printed import halves, values
+from compare.papers.inverse import make_inverse, show_inverse
+from compare.papers.item import Item, Shown, Table
+from compare.papers.measure import judged, least, listed
+from compare.papers.panels import Curve, panels
+from compare.papers.paths import length, path_views, tool_path
+from compare.papers.printed import tables
+from compare.papers.printed_motions import printed, used_most
+from compare.papers.sr4c_times import (
+    IN_FORCE,
+    TABLE_6,
+    above,
+    paper,
+    seconds,
+    table_10_rows,
+    with_speed,
+)
+from compare.style import BLUE, GREEN, ORANGE, VERMILION
+from formulations import FAMILIES, Problem, Trajectory, check, load
+from formulations.arms import load_arm
+from formulations.problem import Array
+
+PLAN, RULE, BEST = "2 s a segment, printed plan", "sec. 4.2.2, printed result", "certified optimum"
+STYLES = {PLAN: (ORANGE, "-"), RULE: (VERMILION, "-"), BEST: (BLUE, "--")}
+
+
+def spline(problem: Problem, durations: list[float]) -> Trajectory:
+    """The motion of the problem's family."""
+    return FAMILIES[problem.family].trajectory(problem, np.array(durations))
+
+
+def peaks(trajectory: Trajectory) -> Array:
+    """Peaks of |velocity| and |acceleration| per joint, (2, dof) [deg/s, deg/s²]."""
+    found = [trajectory.extremes(order) for order in (1, 2)]
+    return np.degrees([np.maximum(-e.low, e.high).max(axis=0) for e in found])
+
+
+def _three_motions() -> dict[str, dict[str, Any]]:
+    """Durations of the plan, of the printed result and of the optimum, each judged."""
+    problem = load("sr4c")
+    whole = next(row for row in paper().rows if row.joint is None)
+    durations = {
+        PLAN: tables("sr4c")["first_plan"]["times"],
+        RULE: values(whole.times).tolist(),
+        BEST: least(problem)["durations"],
+    }
+    found = {name: judged(problem, times) for name, times in durations.items()}
+    for name, times in durations.items():
+        verdict = check(problem, spline(problem, times))
+        found[name]["most"] = used_most(verdict)
+    found[RULE]["digits"] = printed(paper(), whole)["keeps"]
+    return found
+
+
+# --- Figs 7-9 -------------------------------------------------------------------------------------
+
+
+def make_curves(full: bool) -> dict[str, Any]:
+    """The motions, their peaks, and how they join."""
+    problem = load("sr4c")
+    found = _three_motions()
+    for motion in found.values():
+        trajectory = spline(problem, motion["durations"])
+        motion["peaks"] = peaks(trajectory).tolist()
+        motion["jumps"] = np.degrees(trajectory.jumps.max(axis=1)).tolist()
+    return {"motions": found, "limits": np.degrees(problem.limits.derivatives[:2]).tolist()}
+
+
+def show_curves(data: dict[str, Any]) -> Shown:
+    """Joint by joint, with limits; peaks in a table."""
+    problem, motions = load("sr4c"), data["motions"]
+    splines = {name: spline(problem, m["durations"]) for name, m in motions.items()}
+    columns = [
+        (f"joint {j + 1}", [Curve(_label(name, motions[name]), STYLES[name], problem, splines[name], j)
+                            for name in motions])
+        for j in range(problem.dof)
+    ]  # fmt: skip
+    header = ["joint", "limit [deg/s]", *motions, "limit [deg/s²]", *motions]
+    rows = []
+    for j in range(problem.dof):
+        row = [str(j + 1)]
+        for order in range(2):
+            row.append(f"{data['limits'][order][j]:g}")
+            row += [f"{m['peaks'][order][j]:.2f}" for m in motions.values()]
+        rows.append(row)
+    table = Table(header, rows, "Peaks of speed [deg/s] and acceleration [deg/s²].", range(1, 9))
+    plan, rule, best = (motions[name] for name in (PLAN, RULE, BEST))
+    grown = [r / p for r, p in zip(rule["peaks"][1], plan["peaks"][1], strict=True)]
+    most = sorted(range(problem.dof), key=lambda j: -grown[j])
+    remarks = [
+        f"The plan takes {plan['seconds']:g} s and keeps the limits of Table 6: {_yes(plan['keeps'])} "
+        f"({plan['most']}). Position, speed and acceleration join at the waypoints to "
+        f"{max(plan['jumps']):.1g} deg, deg/s and deg/s²: continuous, as printed.",
+        f"The printed result, {rule['seconds']:.4f} s, keeps them: {rule['digits']} ({rule['most']}). Sec. "
+        "4.3.2 says that the acceleration grows most at joints 1 and 5; it grows "
+        + listed([f"{grown[j]:.2f} times at joint {j + 1}" for j in most]) + ".",
+        f"The optimum of the same spline family takes {best['seconds']:.4f} s, "
+        f"{above(best['seconds'], rule['seconds'])} against the printed result and "
+        f"{above(best['seconds'], plan['seconds'])} against the plan.",
+    ]  # fmt: skip
+    return Shown([panels(columns), table], remarks)
+
+
+def _label(name: str, motion: dict[str, Any]) -> str:
+    return f"{name}, {seconds(motion['seconds'])} s"
+
+
+def _yes(kept: bool) -> str:
+    return "yes" if kept else "no"
+
+
+# --- Fig. 11 --------------------------------------------------------------------------------------
+
+
+def make_path(full: bool) -> dict[str, Any]:
+    """The motions, the lengths of their paths, and how far the tool passes the printed points."""
+    problem, arm = load("sr4c"), load_arm("sr4c")
+    found = _three_motions()
+    for motion in found.values():
+        motion["length"] = length(tool_path(arm, spline(problem, motion["durations"]), 4000))
+    points = np.array([values(p.position) * p.metre for p in paper().points])
+    misses = {
+        name: np.linalg.norm(chain.forward(problem.waypoints)[:, :3, 3] - points, axis=1).tolist()
+        for name, chain in (("resolved", arm.chain), ("printed", arm.printed))
+    }
+    rounding = max(float(np.linalg.norm(halves(p.position) * p.metre)) for p in paper().points)
+    return {"motions": found, "points": points.tolist(), "misses": misses, "rounding": rounding}
+
+
+def show_path(data: dict[str, Any]) -> Shown:
+    """Three views."""
+    problem, arm, motions = load("sr4c"), load_arm("sr4c"), data["motions"]
+    drawn = [
+        (_label(name, m), STYLES[name], spline(problem, m["durations"])) for name, m in motions.items()
+    ]
+    figure = path_views(arm, drawn, np.array(data["points"]), ["1", "2", "3", "4"])
+    resolved, printed_ = (data["misses"][name] for name in ("resolved", "printed"))
+    best, rule = motions[BEST], motions[RULE]
+    remarks = [
+        f"By forward kinematics with the joint offsets the tool passes the four points of Table 4 within "
+        f"{1e3 * max(resolved):.2f} mm; rounding of the points alone allows {1e3 * data['rounding']:.2f} mm, "
+        "and that of the angles as much again.",
+        f"The other reading, Table 1 as printed, without offsets, misses them by {1e3 * min(printed_):.0f} to "
+        f"{1e3 * max(printed_):.0f} mm.",
+        f"The path of the printed result is {rule['length']:.3f} m long, that of the optimum "
+        f"{best['length']:.3f} m: through the same points the shape depends on the ratio of the times.",
+    ]
+    return Shown([figure], remarks)
+
+
+# --- Figs 12-14 -----------------------------------------------------------------------------------
+
+
+def make_speeds(full: bool) -> dict[str, Any]:
+    """Printed vectors and certified optima of joint 1 under each speed limit."""
+    rows = []
+    for velocity, row in table_10_rows():
+        motions = {"printed": values(row.times).tolist()}
+        entry: dict[str, Any] = {"velocity": velocity, "keeps": printed(paper(), row)["keeps"]}
+        for name in (IN_FORCE, TABLE_6):
+            problem = with_speed(velocity, table8.LIMITS[name][1])
+            motions[name] = least(problem)["durations"]
+        entry["motions"] = {
+            name: {
+                **judged(with_speed(velocity, table8.LIMITS[TABLE_6][1]), times),
+                "peaks": peaks(spline(load("sr4c").joint(0), times))[:, 0].tolist(),
+            }
+            for name, times in motions.items()
+        }
+        rows.append(entry)
+    return {"rows": rows}
+
+
+def show_speeds(data: dict[str, Any]) -> Shown:
+    """A column per speed limit."""
+    accelerations = {name: table8.LIMITS[name][1] for name in (IN_FORCE, TABLE_6)}
+    drawn = {
+        "printed": ("printed in Table 10", (VERMILION, "-"), accelerations[TABLE_6]),
+        IN_FORCE: (
+            f"optimum, {accelerations[IN_FORCE]:.0f} deg/s²",
+            (BLUE, "--"),
+            accelerations[IN_FORCE],
+        ),
+        TABLE_6: (
+            f"optimum, {accelerations[TABLE_6]:.0f} deg/s²",
+            (GREEN, "-."),
+            accelerations[TABLE_6],
+        ),
+    }
+    columns = []
+    rows, remarks = [], []
+    for row in data["rows"]:
+        curves = []
+        for name, (label, style, acceleration) in drawn.items():
+            problem = with_speed(row["velocity"], acceleration)
+            motion = row["motions"][name]
+            curves.append(Curve(label, style, problem, spline(problem, motion["durations"])))
+            speed, rate = motion["peaks"]
+            rows.append(
+                [
+                    f"{row['velocity']:g}",
+                    label,
+                    seconds(motion["seconds"]),
+                    f"{speed:.2f}",
+                    f"{rate:.2f}",
+                ]
+            )
+        columns.append((f"limit {row['velocity']:g} deg/s", curves))
+        speed, rate = row["motions"]["printed"]["peaks"]
+        remarks.append(
+            f"Limit {row['velocity']:g} deg/s: the printed vector peaks at {speed:.2f} deg/s and "
+            f"{rate:.2f} deg/s². It keeps the limits: {row['keeps']}; the acceleration that Table 6 allows is "
+            f"used to {100 * rate / accelerations[TABLE_6]:.0f} %."
+        )
+    table = Table(
+        ["limit [deg/s]", "motion of joint 1", "time [s]", "peak speed [deg/s]", "peak acceleration [deg/s²]"],
+        rows, "", (0, 2, 3, 4),
+    )  # fmt: skip
+    return Shown([panels(columns), table], remarks)
+
+
+# --- Table 5 --------------------------------------------------------------------------------------
+
+
+def make_table_5(full: bool) -> dict[str, Any]:
+    """Joint angles of the poses of Table 4."""
+    return make_inverse(paper())
+
+
+def show_table_5(data: dict[str, Any]) -> Shown:
+    """Printed beside reproduced."""
+    return show_inverse(data)
+
+
+ITEMS = (
+    Item(
+        "Table 5",
+        "joint angles of the four path points",
+        make_table_5,
+        show_table_5,
+        "Table 4's angles are read as roll, pitch, yaw about fixed axes; the arm is Table 1 with joint offsets "
+        "that are not printed. Which of several solutions is meant is not printed: the one nearest to the "
+        "point before is taken.",
+        cost=1.0,
+    ),
+    Item(
+        "Figs 7-9",
+        "angle, speed and acceleration of every joint, 2 s a segment",
+        make_curves,
+        show_curves,
+        "The printed pictures show the plan of 2 s a segment alone; the printed result and the optimum are "
+        "laid over it.",
+        cost=3.0,
+    ),
+    Item(
+        "Fig 11",
+        "path of the tool",
+        make_path,
+        show_path,
+        "The path of the printed result, by forward kinematics; the plan and the optimum beside it.",
+        cost=3.0,
+    ),
+    Item(
+        "Figs 12-14",
+        "joint 1 under three velocity limits",
+        make_speeds,
+        show_speeds,
+        "The printed vectors of Table 10 put back into the spline. The acceleration limit is not named: the "
+        "optimum under Table 6's and under the one in force elsewhere stand beside them.",
+        cost=5.0,
+    ),
+)
