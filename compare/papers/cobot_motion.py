@@ -100,13 +100,15 @@ def show_descents(data: dict[str, Any]) -> Shown:
         ends["PSO, no inertia"] / joint["bound"] - 1.0
         for ends, joint in zip(medians, data["joints"], strict=True)
     ]
+    says = {key: printed["converged"][key] for key in ("improved", "PSO", "WOA")}
+    steady = {key: _steady(data["joints"][1]["found"][key]["descent"]) for key in says}
     gains = [_reduction(ends, "PSO") for ends in medians]
     whales = [_reduction(ends, "WOA") for ends in medians]
     return Shown(
         [Table(header, lines, caption, range(1, len(header))), descent_figure(data)],
         [
             f"Not reproduced: printed, the improved PSO ends {_range(printed['reductions']['PSO'])} % below "
-            f"the standard one; reproduced, {min(gains):.2f} to {max(gains):.2f} %, as both come to the optimum. "
+            f"the standard one; reproduced, {min(gains):.2f} to {max(gains):.2f} %, as both find the optimum. "
             f"Below the whales it ends by {min(whales):.1f} to {max(whales):.1f} % (printed "
             f"{_range(printed['reductions']['WOA'])} %).",
             f"Printed times cannot hold together: joint 1 ends at {end} s in Fig. 6 and at {own:.4f} s in "
@@ -118,12 +120,8 @@ def show_descents(data: dict[str, Any]) -> Shown:
             f"improved one; of {data['runs']} runs of the standard PSO here, the worst on joint 6 is "
             f"{max(data['joints'][5]['found']['PSO']['seconds']) / data['joints'][5]['bound']:.3f} times the "
             "certified optimum.",
-            "Joint 2 within 1 % of its own end, as median and as printed: "
-            + ", ".join(
-                f"{SWARMS[key][0]} from iteration {_steady(data['joints'][1]['found'][key]['descent'])} (printed "
-                f"{printed['converged'][key]})"
-                for key in ("improved", "PSO", "WOA")
-            )
+            "Joint 2 is within 1 % of its end (median run) from iteration "
+            + listed([f"{steady[key]} on ({SWARMS[key][0]}, printed {i})" for key, i in says.items()])
             + ".",
             f"The other reading of the standard PSO, eq. 1-2 without inertia, ends {min(restless):.1%} to "
             f"{max(restless):.1%} above the optimum; the printed {standard} s for joint 1 is "

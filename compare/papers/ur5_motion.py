@@ -11,12 +11,12 @@ from matplotlib.figure import Figure
 from compare.audit.minima import minimum
 from compare.audit.paper_file import load_papers
 from compare.audit.printed import values
-from compare.motion_picture import VIEWS, skeleton
 from compare.papers.curves import all_joints, verdict_told
 from compare.papers.descent import descent, draw_descent
 from compare.papers.item import Item, Shown
-from compare.papers.measure import judged, summary, trials
+from compare.papers.measure import judged, listed, summary, trials
 from compare.papers.panels import panels
+from compare.papers.paths import length, path_views, tool_path
 from compare.papers.printed import tables
 from compare.style import BLACK, BLUE, GREEN, GREY, ORANGE, VERMILION, styled
 from compare.suite import PAPER_BUDGETS
@@ -48,73 +48,33 @@ def planned(full: bool) -> dict[str, Any]:
 
 
 def make_path(full: bool) -> dict[str, Any]:
-    """Printed points, and the tool's path along both motions [m]."""
+    """Both motions, and how far they stay away from the printed points [m]."""
     problem, arm = load("ur5-corrected"), load_arm("ur5")
-    data = planned(full)
-    paths = {}
-    for name in ("printed", "reproduced"):
-        motion = FAMILIES[problem.family].trajectory(problem, data[name]["durations"])
-        even = np.linspace(0.0, motion.seconds, 120)
-        paths[name] = arm.chain.forward(motion.at(even))[:, :3, 3].tolist()
-    points = [values(p.position) * p.metre for p in load_papers("ur5")[0].points]
     tool = arm.chain.forward(problem.waypoints)[:, :3, 3]
-    return {
-        **data,
-        "paths": paths,
-        "points": np.array(points).tolist(),
-        "miss": np.linalg.norm(tool - points, axis=1).tolist(),
-    }
+    return {**planned(full), "miss": np.linalg.norm(tool - _points(), axis=1).tolist()}
 
 
-@styled
-def path_figure(data: dict[str, Any]) -> Figure:
-    """Two views: the arm at its waypoints, both paths, and the printed points."""
-    problem, arm = load("ur5-corrected"), load_arm("ur5")
-    bones = skeleton(arm, problem.waypoints)
-    points: Array = np.array(data["points"])
-    figure, panels = plt.subplots(1, 2, figsize=(10.0, 5.0))
-    for axes, view in zip(panels, VIEWS, strict=True):
-        for index, bone in enumerate(bones):
-            x, y = view(bone).T
-            axes.plot(
-                x,
-                -y,
-                color=GREY,
-                lw=1.6,
-                alpha=0.55,
-                label="arm at the angles of Table 2" * (not index),
-            )
-        for name, colour, line in (("printed", VERMILION, "-"), ("reproduced", BLUE, "--")):
-            x, y = view(np.array(data["paths"][name])).T
-            axes.plot(x, -y, color=colour, ls=line, lw=1.5, label=f"tool's path, {name} times")
-        for index, point in enumerate(points):
-            ends = view(np.stack([point, bones[index, -1]]))
-            axes.plot(ends[:, 0], -ends[:, 1], color=BLACK, ls=":", lw=1.0,
-                      label="how far the tool is away" * (not index))  # fmt: skip
-            axes.plot(ends[0, 0], -ends[0, 1], "X", color=BLACK, ms=7, ls="",
-                      label="printed point" * (not index))  # fmt: skip
-            axes.annotate(
-                f"P{index + 1}", (ends[0, 0], -ends[0, 1]), (5, 5), textcoords="offset points"
-            )
-        axes.set_aspect("equal")
-        axes.set_title(view.name, loc="left", fontsize=9)
-        axes.set_xlabel("to the right [m]")
-    panels[0].set_ylabel("up [m]")
-    handles, labels = panels[0].get_legend_handles_labels()
-    figure.legend(handles, labels, loc="outside upper left", ncols=5, fontsize=8, frameon=False)
-    return figure
+def _points() -> Array:
+    """The points of sec. 5.1, (4, 3) [m]."""
+    return np.array([values(p.position) * p.metre for p in load_papers("ur5")[0].points])
 
 
 def show_path(data: dict[str, Any]) -> Shown:
-    """The picture, and where the path does not go."""
-    miss = ", ".join(f"{1e3 * m:.0f}" for m in data["miss"])
+    """Paths in three views, and where they do not go."""
+    problem, arm = load("ur5-corrected"), load_arm("ur5")
+    motions = []
+    for name, style in (("printed", (VERMILION, "-")), ("reproduced", (BLUE, "--"))):
+        motion = FAMILIES[problem.family].trajectory(problem, data[name]["durations"])
+        motions.append((f"{name} times, {motion.seconds:.3f} s", style, motion))
+    long = [length(tool_path(arm, motion)) for _, _, motion in motions]
+    miss = [f"{1e3 * m:.0f}" for m in data["miss"]]
     return Shown(
-        [path_figure(data)],
+        [path_views(arm, motions, _points(), [f"P{i + 1}" for i in range(4)])],
         [
-            f"Not reproduced: the path passes P1 to P4 at {miss} mm, as the points are out of reach "
+            f"Not reproduced: the path passes P1 to P4 at {listed(miss)} mm, as the points are out of reach "
             "(Table 2).",
-            "Times change the path between the waypoints as well as the speed along it: both motions pass "
-            "the same angles, on different ways.",
+            f"Times shape the path, too, not the speed along it alone: with the printed ones the tool goes "
+            f"{long[0]:.2f} m, with the reproduced ones {long[1]:.2f} m.",
         ],
     )
 
