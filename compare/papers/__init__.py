@@ -2,10 +2,11 @@
 
 from __future__ import annotations
 
-from compare.papers import sr4c
+from compare.papers import bagging, sr4c
 from compare.papers.item import Item
 
 ITEMS: dict[str, tuple[Item, ...]] = {
     "sr4c": sr4c.ITEMS,
+    "bagging": bagging.ITEMS,
 }
 """Items by paper, in the order of the papers and of their pages."""
