@@ -2,11 +2,12 @@
 
 from __future__ import annotations
 
-from compare.papers import cobot, sr4c, ur5, z1
+from compare.papers import bagging, cobot, sr4c, ur5, z1
 from compare.papers.item import Item
 
 ITEMS: dict[str, tuple[Item, ...]] = {
     "sr4c": sr4c.ITEMS,
+    "bagging": bagging.ITEMS,
     "ur5": ur5.ITEMS,
     "z1": z1.ITEMS,
     "cobot": cobot.ITEMS,

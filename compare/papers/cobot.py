@@ -2,21 +2,22 @@
 
 from __future__ import annotations
 
+from dataclasses import replace
 from typing import Any
 
 import numpy as np
 
 from compare.audit.motions import Motion
 from compare.audit.paper_file import load_papers
-from compare.audit.points import misses
 from compare.audit.printed import values
 from compare.papers.cobot_motion import FIGURES
+from compare.papers.inverse import make_inverse
 from compare.papers.item import Item, Shown, Table
-from compare.papers.measure import judged, least, summary, trials
+from compare.papers.measure import judged, least, percent, summary, trials
 from compare.papers.printed import tables
 from compare.suite import PAPER_BUDGETS
 from formulations import FAMILIES, load, longest_segment
-from formulations.arms import branches, load_arm, nearest
+from formulations.arms import load_arm
 
 RUNS = {False: 15, True: 100}
 
@@ -24,82 +25,65 @@ RUNS = {False: 15, True: 100}
 
 
 def make_angles(full: bool) -> dict[str, Any]:
-    """The printed angles by forward kinematics against the points of Table 2, and solved again."""
+    """The points of Table 2 solved to joints; what the printed arm and the text's point miss by."""
     paper, arm = load_papers("cobot")[0], load_arm("cobot")
-    joints = load("cobot").waypoints
-    table = [p for p in paper.points if p.where.startswith("Table 2")]
-    rows: list[dict[str, Any]] = []
-    for q, point in zip(joints, table, strict=True):
-        pose = arm.chain.forward(q)
-        wanted = values(point.position) * point.metre
-        found = branches(arm, pose)
-        # the branch nearest to the waypoint before, to the printed angles for the first
-        before = np.deg2rad(rows[-1]["solved"]) if rows else q
-        solved = nearest(arm, pose, before)
-        apart = np.abs((found - q + np.pi) % (2.0 * np.pi) - np.pi).max(axis=1)
-        rows.append(
-            {
-                "point": (1e3 * wanted).tolist(),
-                "tool": (1e3 * pose[:3, 3]).tolist(),
-                "miss": 1e3 * float(np.linalg.norm(pose[:3, 3] - wanted)),
-                "branches": len(found),
-                "apart": float(np.rad2deg(apart.min())),
-                "printed": np.rad2deg(q).tolist(),
-                "solved": np.rad2deg(solved).tolist(),
-            }
-        )
-    text = next(p for p in paper.points if p.where.startswith("sec."))
-    tool = arm.chain.forward(joints[text.waypoint])[:3, 3]
+    assert paper.waypoints is not None
+    table = tuple(p for p in paper.points if p.where.startswith("Table 2"))
+    text = next(p for p in paper.points if p not in table)
+    tool = arm.chain.forward(paper.waypoints)[:, :3, 3]
     return {
-        "rows": rows,
-        "puma": 1e3 * max(misses(paper, arm.printed)),
-        "text": {
-            "where": text.where,
-            "z": str(text.position[2]),
-            "miss": 1e3 * float(np.linalg.norm(tool - values(text.position) * text.metre)),
-        },
+        **make_inverse(replace(paper, points=table)),
+        "table": (1e3 * np.array([values(p.position) * p.metre for p in table])).tolist(),
+        "tool": (1e3 * tool).tolist(),
+        "text_z": str(text.position[2]),
+        "text_miss": 1e3
+        * float(np.linalg.norm(tool[text.waypoint] - values(text.position) * text.metre)),
     }
 
 
 def show_angles(data: dict[str, Any]) -> Shown:
     """Points, then angles."""
-    rows = data["rows"]
-    points = Table(
+    points = data["points"]
+    places = Table(
         ["point", "Table 2 [mm]", "tool at the angles of Table 3 [mm]", "away [mm]", "branches"],
         [
-            [f"X{i}", _triple(r["point"]), _triple(r["tool"]), f"{r['miss']:.3f}", str(r["branches"])]
-            for i, r in enumerate(rows)
+            [f"X{i}", _triple(data["table"][i]), _triple(data["tool"][i]), f"{1e3 * p['miss']:.3f}",
+             str(p["branches"])]
+            for i, p in enumerate(points)
         ],
-        "Points by forward kinematics of the fitted chain; how many sets of angles lead to each pose.",
+        "Points by forward kinematics of the fitted chain; how many sets of angles lead to each.",
         (1, 2, 3, 4),
-    )
+    )  # fmt: skip
     lines = []
-    for i, r in enumerate(rows):
-        lines.append([f"X{i}, printed", *(f"{a:.0f}" for a in r["printed"])])
+    for i, p in enumerate(points):
+        lines.append([f"X{i}, printed", *(f"{a:.0f}" for a in np.rad2deg(p["printed"]))])
         lines.append(
-            [f"X{i}, reproduced", *(f"{a:.4f}".replace("-0.0000", "0.0000") for a in r["solved"])]
+            [f"X{i}, reproduced", *(f"{a:.4f}" for a in np.round(np.rad2deg(p["found"]), 4) + 0.0)]
         )
     angles = Table(
         ["angles [deg]", *(f"joint {j + 1}" for j in range(6))], lines,
-        "Table 3: printed, and solved from the pose, each nearest to the one before.", range(1, 7),
+        "Table 3: printed, and solved from Table 2, each nearest to the one before.", range(1, 7),
     )  # fmt: skip
-    apart, text = max(r["apart"] for r in rows), data["text"]
-    chosen = max(float(np.abs(np.subtract(r["printed"], r["solved"])).max()) for r in rows)
+    misses = [1e3 * p["miss_as_printed"] for p in points]
+    apart = np.abs(np.subtract([p["found"] for p in points], [p["printed"] for p in points]))
+    worst = int(apart.max(axis=1).argmax())
     return Shown(
-        [points, angles],
+        [places, angles],
         [
             f"Reproduced, but by another arm: a chain with three parallel axes, fitted to the paper's own "
-            f"numbers, leads from Table 3 to Table 2 within {max(r['miss'] for r in rows):.3f} mm; the PUMA560 "
-            f"of Table 1 misses its points by up to {data['puma']:.0f} mm.",
-            f"Solved back from the poses, the printed angles are among the branches at every point (within "
-            f"{apart:.1e} deg)"
+            f"numbers, leads from Table 3 to Table 2 within {1e3 * max(p['miss'] for p in points):.3f} mm; the "
+            f"PUMA560 of Table 1 misses its points by {min(misses):.0f} to {max(misses):.0f} mm.",
+            f"Solved from Table 2, going to the nearest of the branches each time, the angles come back within "
+            f"{np.rad2deg(apart.max()):.1e} deg, farthest at X{worst}"
             + (
-                "; going to the nearest branch each time gives just them."
-                if chosen < 1e-3
-                else f"; going to the nearest branch each time leaves them by up to {chosen:.1f} deg."
+                ", where a digit of the printed y is probably wrong: it is "
+                f"{abs(data['table'][worst][1] - data['tool'][worst][1]):.3f} mm off, the other points at most "
+                f"{1e3 * sorted(p['miss'] for p in points)[-2]:.3f} mm."
+                if points[worst]["miss"] > 10.0 * sorted(p["miss"] for p in points)[-2]
+                else "."
             ),
-            f"The other reading of X1, z = {text['z']} mm in the text, is {text['miss']:.1f} mm off: a "
-            "misprint.",
+            f"The other reading of X1, z = {data['text_z']} mm in the text, is {data['text_miss']:.1f} mm "
+            "off: a misprint.",
         ],
     )
 
@@ -133,7 +117,8 @@ def make_times(full: bool) -> dict[str, Any]:
         "alone": alone,
         "whole": whole,
         "rule": judged(problem, rule.claimed),
-        "least": [least(problem.joint(j)) for j in range(problem.dof)] + [least(problem)],
+        "least": [least(problem.joint(j))["bound"] for j in range(problem.dof)]
+        + [least(problem)["bound"]],
         "limit": float(np.rad2deg(problem.limits.velocity[0])),
         "runs": runs,
     }
@@ -153,7 +138,7 @@ def show_times(data: dict[str, Any]) -> Shown:
                 f"{max(data['speeds'][j]):.1f}",
                 ", ".join(f"{t:.4f}" for t in found["durations"]),
                 f"{found['median']:.4f}",
-                f"{data['least'][j]['bound']:.4f}",
+                f"{data['least'][j]:.4f}",
             ]
         )
     header = [
@@ -170,9 +155,9 @@ def show_times(data: dict[str, Any]) -> Shown:
         f"joint, each joint alone and, last row, the whole arm; median of {data['runs']} runs."
     )
     sums = [sum(map(float, times)) for times in data["printed"]]
-    bound, arm, rule = data["least"][6]["bound"], data["arm"], data["rule"]
+    bound, arm, rule = data["least"][6], data["arm"], data["rule"]
     second_third = float(data["printed"][0][1]) + float(data["printed"][0][2])
-    ratios = [sums[j] / data["least"][j]["bound"] for j in range(6)]
+    ratios = [sums[j] / data["least"][j] for j in range(6)]
     keeps = "keeps the limit" if rule["keeps"] else f"is too fast, by a factor of {rule['stretch']:.4f}"
     return Shown(
         [Table(header, lines, caption, (1, 2, 3, 4, 5, 6))],
@@ -182,7 +167,7 @@ def show_times(data: dict[str, Any]) -> Shown:
             f"{min(sums[:6]):.4f} s, the longest times of all segments to {sums[6]:.4f} s.",
             f"Not reproduced as the optimum of each joint: the rows take {min(ratios):.2f} to "
             f"{max(ratios):.2f} times what the joints need alone. As times of the whole arm they are "
-            f"{arm['seconds'] / bound - 1.0:.1%} above its certified optimum of {bound:.4f} s under "
+            f"{percent(arm['seconds'] / bound - 1.0)} above its certified optimum of {bound:.4f} s under "
             f"{data['limit']:.0f} deg/s, which the improved PSO reproduced reaches within "
             f"{data['whole']['median'] / bound - 1.0:.1e}.",
             f"No limit is printed: {data['limit']:.0f} deg/s is the least round value that the printed motion "

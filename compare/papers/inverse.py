@@ -88,8 +88,8 @@ def show_inverse(data: dict[str, Any]) -> Shown:
         ),
         f"By forward kinematics the printed angles lead to the printed points within {1e3 * max(misses):.3g} mm"
         + (f" and {np.degrees(max(turns)):.2g} deg." if data["oriented"] else "."),
-        f"There are {min(counts)} to {max(counts)} solutions per point; another choice among them would be "
-        "another motion.",
+        f"Each point has {' or '.join(map(str, sorted(set(counts))))} solutions; another choice among them "
+        "would be another motion.",
     ]
     if max(as_printed) > 2.0 * max(misses):
         remarks.append(

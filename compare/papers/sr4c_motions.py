@@ -84,7 +84,8 @@ def show_curves(data: dict[str, Any]) -> Shown:
                             for name in motions])
         for j in range(problem.dof)
     ]  # fmt: skip
-    header = ["joint", "limit [deg/s]", *motions, "limit [deg/s²]", *motions]
+    names = ["plan", "result", "optimum"]
+    header = ["joint", "speed limit", *names, "acceleration limit", *names]
     rows = []
     for j in range(problem.dof):
         row = [str(j + 1)]
@@ -92,7 +93,12 @@ def show_curves(data: dict[str, Any]) -> Shown:
             row.append(f"{data['limits'][order][j]:g}")
             row += [f"{m['peaks'][order][j]:.2f}" for m in motions.values()]
         rows.append(row)
-    table = Table(header, rows, "Peaks of speed [deg/s] and acceleration [deg/s²].", range(1, 9))
+    table = Table(
+        header,
+        rows,
+        "Peaks of speed [deg/s] and of acceleration [deg/s²]: of the plan, the printed result and the optimum.",
+        range(1, 9),
+    )
     plan, rule, best = (motions[name] for name in (PLAN, RULE, BEST))
     grown = [r / p for r, p in zip(rule["peaks"][1], plan["peaks"][1], strict=True)]
     most = sorted(range(problem.dof), key=lambda j: -grown[j])
@@ -101,7 +107,7 @@ def show_curves(data: dict[str, Any]) -> Shown:
         f"({plan['most']}). Position, speed and acceleration join at the waypoints to "
         f"{max(plan['jumps']):.1g} deg, deg/s and deg/s²: continuous, as printed.",
         f"The printed result, {rule['seconds']:.4f} s, keeps them: {rule['digits']} ({rule['most']}). Sec. "
-        "4.3.2 says that the acceleration grows most at joints 1 and 5; it grows "
+        "4.3.2 says that the acceleration grows markedly at joints 1 and 5; against the plan it grows "
         + listed([f"{grown[j]:.2f} times at joint {j + 1}" for j in most]) + ".",
         f"The optimum of the same spline family takes {best['seconds']:.4f} s, "
         f"{above(best['seconds'], rule['seconds'])} against the printed result and "

@@ -7,13 +7,13 @@ from typing import Any
 import numpy as np
 from scipy.optimize import least_squares, minimize_scalar
 
-from compare.audit.minima import minimum, with_limits
+from compare.audit.minima import with_limits
 from compare.audit.motions import Motion
 from compare.audit.paper import Paper
 from compare.audit.paper_file import load_papers
 from compare.audit.printed import values
 from compare.papers.item import Item, Shown, Table
-from compare.papers.measure import judged, least, listed, summary, trials
+from compare.papers.measure import judged, least, listed, percent, summary, trials
 from compare.papers.printed import tables
 from compare.papers.ur5_motion import FIGURES
 from compare.suite import PAPER_BUDGETS
@@ -175,10 +175,10 @@ def make_times(full: bool) -> dict[str, Any]:
     rad = with_limits(problem, problem.limits.derivatives * 180.0 / np.pi)
     return {
         "swarms": swarms,
-        "least": [least(problem.joint(j)) for j in range(problem.dof)] + [least(problem)],
-        "other_sign": minimum(load("ur5").joint(5)).seconds,
-        "other_unit": [minimum(rad.joint(j)).seconds for j in range(problem.dof)],
-        "other_unit_arm": minimum(rad).seconds,
+        "least": [least(problem.joint(j))["bound"] for j in range(problem.dof)]
+        + [least(problem)["bound"]],
+        "other_sign": least(load("ur5").joint(5))["bound"],
+        "other_unit": least(rad.joint(0))["bound"],
         "crossing": float((np.abs(problem.displacements) / problem.limits.velocity).max(axis=1).sum()),
         "runs": RUNS[full],
     }
@@ -187,7 +187,7 @@ def make_times(full: bool) -> dict[str, Any]:
 def show_times(data: dict[str, Any]) -> Shown:
     """A table per algorithm, then what is to be said of all three."""
     parts = [_table(data, name) for name in SWARMS]
-    bounds = [entry["bound"] for entry in data["least"]]
+    bounds = data["least"]
     remarks = []
     for name, s in data["swarms"].items():
         joints = [j + 1 for j in range(6) if s["impossible"][j]]
@@ -211,14 +211,13 @@ def show_times(data: dict[str, Any]) -> Shown:
     pso, issa = medians["PSO"], medians["ISSA"]
     remarks.append(
         f"What ISSA gains is not reproduced: printed, {claim.equals} % over PSO; with the same budget its "
-        f"median runs, summed over the joints, are {abs(issa / pso - 1.0):.3%} "
+        f"median runs, summed over the joints, are {percent(abs(issa / pso - 1.0), 3)} "
         f"{'shorter' if issa < pso else 'longer'} than those of PSO. Gaps to the optimum: {gaps}."
     )
-    unit = data["other_unit"]
     joint_1 = sum(float(t) for t in data["swarms"]["ISSA"]["printed"][0])
     remarks.append(
         f"The other reading of the limits, radians for the printed degrees, does not help: joint 1 then "
-        f"still needs {unit[0]:.3f} s, printed {joint_1:.3f} s, and the arm {data['other_unit_arm']:.3f} s. "
+        f"still needs {data['other_unit']:.3f} s, printed {joint_1:.3f} s. "
         f"With the sign of joint 6 as printed that joint needs {data['other_sign']:.3f} s instead of "
         f"{bounds[5]:.3f} s."
     )
@@ -230,11 +229,11 @@ def _table(data: dict[str, Any], name: str) -> Table:
     for j, found in enumerate(s["found"]):
         lines.append(
             [f"joint {j + 1}", *_printed(s["printed"][j]), *_reproduced(found["durations"]),
-             f"{data['least'][j]['bound']:.4f}", "impossible" if s["impossible"][j] else "not excluded"]
+             f"{data['least'][j]:.4f}", "impossible" if s["impossible"][j] else "not excluded"]
         )  # fmt: skip
     lines.append(
         ["longest per segment", *_printed(s["printed"][6]), *_reproduced(s["arm"]["durations"]),
-         f"{data['least'][6]['bound']:.4f}", "impossible" if s["impossible"][6] else "not excluded"]
+         f"{data['least'][6]:.4f}", "impossible" if s["impossible"][6] else "not excluded"]
     )  # fmt: skip
     keeps = "keeps the limits" if s["arm"]["keeps"] else "breaks the limits"
     caption = (

@@ -8,13 +8,12 @@ import matplotlib.pyplot as plt
 import numpy as np
 from matplotlib.figure import Figure
 
-from compare.audit.minima import minimum
 from compare.audit.paper_file import load_papers
 from compare.audit.printed import values
 from compare.papers.curves import all_joints, verdict_told
 from compare.papers.descent import descent, draw_descent
 from compare.papers.item import Item, Shown
-from compare.papers.measure import judged, listed, summary, trials
+from compare.papers.measure import judged, least, listed, summary, trials
 from compare.papers.panels import panels
 from compare.papers.paths import length, path_views, tool_path
 from compare.papers.printed import tables
@@ -90,8 +89,7 @@ def make_descents(full: bool) -> dict[str, Any]:
         runs = trials(joint, swarm, _BUDGET, _RUNS[full])
         traces = [graded.traces[0] for graded in runs]
         found[name] = descent(traces, _BUDGET.population, _BUDGET.iterations)
-    bound = minimum(joint)
-    return {"descents": found, "bound": bound.seconds, "optimum": bound.upper, "runs": _RUNS[full]}
+    return {"descents": found, "bound": least(joint)["bound"], "runs": _RUNS[full]}
 
 
 STYLE = {"PSO": (GREEN, "-"), "SSA": (ORANGE, "-"), "ISSA": (BLUE, "-")}
@@ -129,7 +127,7 @@ def show_descents(data: dict[str, Any]) -> Shown:
     within = {}
     for name, found in data["descents"].items():
         middle = np.array(found["quartiles"][1], dtype=float)
-        near = np.flatnonzero(middle <= data["optimum"] * 1.01)
+        near = np.flatnonzero(middle <= data["bound"] * 1.01)
         within[name] = found["iterations"][near[0]] if len(near) else None
     printed = tables("ur5")["descents"]["ends"]
     fast = ", ".join(f"{n} {'never' if i is None else int(i)}" for n, i in within.items())

@@ -7,10 +7,12 @@ from typing import Any
 import matplotlib.pyplot as plt
 import numpy as np
 from matplotlib.figure import Figure
+from matplotlib.lines import Line2D
 from scipy.stats import qmc
 
 from compare.motion_picture import VIEWS, skeleton
 from compare.papers.item import Item, Shown, Table
+from compare.papers.measure import percent
 from compare.papers.printed import tables
 from compare.papers.z1_motion import FIGURES
 from compare.style import BLACK, BLUE, GREY, SKY, VERMILION, styled
@@ -99,8 +101,8 @@ def chaos_figure(data: dict[str, Any]) -> Figure:
 def show_chaos(data: dict[str, Any]) -> Shown:
     """Pictures and evenness."""
     rows = [
-        [name, *(f"{q:.4f}" for q in entry["discrepancy"]), f"{entry['zeros']:.1%}",
-         f"{entry['zeros_of_100']:.0%}"]
+        [name, *(f"{q:.4f}" for q in entry["discrepancy"]), f"{percent(entry['zeros'])}",
+         f"{percent(entry['zeros_of_100'], 0)}"]
         for name, entry in data["found"].items()
     ]  # fmt: skip
     caption = (
@@ -121,8 +123,8 @@ def show_chaos(data: dict[str, Any]) -> Shown:
             f"With one orbit through all numbers every individual lies on the graph of the map itself, two "
             f"straight lines: far from even ({single:.4f}).",
             "At beta = 0.5, as printed, doubles lose a bit at each step and any orbit ends in 0 after some 54: "
-            f"30 whales with an orbit per coordinate just escape it ({half['zeros']:.1%} touch 0), of 100 "
-            f"{half['zeros_of_100']:.0%} would start at the origin. Beta 0.499 does not end there.",
+            f"30 whales with an orbit per coordinate just escape it ({percent(half['zeros'])} touch 0), of 100 "
+            f"{percent(half['zeros_of_100'], 0)} would start at the origin. Beta 0.499 does not end there.",
         ],
     )
 
@@ -174,6 +176,9 @@ def arm_figure(data: dict[str, Any]) -> Figure:
         axes.set_xlabel("to the right [m]")
     panels[0].set_ylabel("up [m]")
     handles, labels = panels[0].get_legend_handles_labels()
+    handles[0] = Line2D(
+        [], [], color=SKY, marker=".", ms=8, ls=""
+    )  # one point alone is too small to see
     figure.legend(handles, labels, loc="outside upper left", ncols=3, fontsize=8, frameon=False)
     return figure
 

@@ -16,7 +16,7 @@ from compare.objective import Objective
 from compare.papers.curves import all_joints, verdict_told
 from compare.papers.descent import descent, draw_descent
 from compare.papers.item import Item, Shown, Table
-from compare.papers.measure import judged
+from compare.papers.measure import judged, percent
 from compare.papers.panels import panels
 from compare.papers.printed import tables
 from compare.style import BLACK, BLUE, GREEN, GREY, ORANGE, VERMILION, styled
@@ -134,10 +134,10 @@ def show_descent(data: dict[str, Any]) -> Shown:
         steady = int(at[np.flatnonzero(curve <= 1.01 * end)[0]])
         left = curve[np.searchsorted(at, says["left_local_optimum"])]
         remarks.append(
-            f"{solved}; the median ends at {end:.3f} s, {end / data['optimum'] - 1.0:.1%} above the best "
+            f"{solved}; the median ends at {end:.3f} s, {percent(end / data['optimum'] - 1.0)} above the best "
             f"known, and is within 1 % of its end from iteration {steady} on (printed: steady after "
             f"{says['steady_after']}); after iteration {says['left_local_optimum']}, where the paper sees a "
-            f"local optimum left, it falls by {1.0 - end / left:.1%}."
+            f"local optimum left, it falls by {percent(1.0 - end / left)}."
         )
     remarks.append(
         f"A curve that stays flat has converged, not arrived: the best known B-spline takes "
@@ -230,20 +230,20 @@ def _remarks(data: dict[str, Any]) -> list[str]:
     spline, quintic, cubic, same = medians.values()
     if spline and quintic:
         remarks.append(
-            f"Reproduced in kind: the B-spline is {1.0 - spline['seconds'] / quintic['seconds']:.1%} shorter "
-            f"than the quintic (printed {1.0 - printed[0] / printed[1]:.1%})"
+            f"Reproduced in kind: the B-spline is {percent(1.0 - spline['seconds'] / quintic['seconds'])} "
+            f"shorter than the quintic (printed {percent(1.0 - printed[0] / printed[1])})"
             + (
-                f"; with the same whales for both, {1.0 - spline['seconds'] / same['seconds']:.1%}."
+                f"; with the same whales for both, {percent(1.0 - spline['seconds'] / same['seconds'])}."
                 if same
                 else "."
             )
         )
     remarks.append(
         f"It is the spline, not the swarm: the best known of both families are {optima['b-spline-5']:.3f} and "
-        f"{optima['quintic']:.3f} s, {1.0 - optima['b-spline-5'] / optima['quintic']:.1%} apart; what the "
+        f"{optima['quintic']:.3f} s, {percent(1.0 - optima['b-spline-5'] / optima['quintic'])} apart; what the "
         "whales leave to their own optimum is "
         + " and ".join(
-            f"{m['seconds'] / optima[key] - 1.0:.1%}"
+            f"{percent(m['seconds'] / optima[key] - 1.0)}"
             for key in optima
             if (m := medians[key]) is not None
         )
@@ -256,7 +256,7 @@ def _remarks(data: dict[str, Any]) -> list[str]:
     remarks.append(
         f"On {len(pairs)} of {len(data['others'])} further sets of waypoints, drawn alike, a PSO with the "
         f"exact stretch finds a motion of both families; the B-spline is the shorter one on "
-        f"{sum(s > 0.0 for s in shorter)}, by {np.median(shorter):.1%} in the median."
+        f"{sum(s > 0.0 for s in shorter)}, by {percent(np.median(shorter))} in the median."
     )
     if spline and cubic:
         remarks.append(

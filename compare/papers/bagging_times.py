@@ -1,0 +1,338 @@
+"""Paper 001, its times: Table 3 (every joint by MPSO) and Fig. 5 (the best particle over the iterations)."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import dataclass, field
+from functools import cache
+from typing import Any
+
+import matplotlib.pyplot as plt
+import numpy as np
+from matplotlib.figure import Figure
+
+from compare.audit.minima import with_limits
+from compare.audit.motions import Motion
+from compare.audit.paper import Paper, Row
+from compare.audit.paper_file import load_papers
+from compare.audit.printed import values
+from compare.grade import Graded, durations_of
+from compare.objective import Objective, search_box
+from compare.papers.descent import descent, draw_descent
+from compare.papers.item import Item, Shown, Table
+from compare.papers.measure import judged, listed, summary, trials
+from compare.papers.printed import tables
+from compare.style import BLACK, BLUE, GREEN, GREY, ORANGE, PURPLE, SKY, VERMILION, styled
+from compare.suite import Budget
+from formulations import Problem, family_bound, family_optimum, load, longest_segment
+from formulations.problem import Array
+from metaheuristics import ALGORITHMS, minimise
+
+SWARMS = {"mpso": "factors as printed", "mpso-times-ten": "factors times ten"}
+
+
+def paper() -> Paper:
+    """Paper 001 as data."""
+    return load_papers("bagging")[0]
+
+
+def rows() -> tuple[list[Row], Row]:
+    """Table 3: the rows of single joints, and the starred times."""
+    single = [row for row in paper().rows if row.joint is not None]
+    return single, next(row for row in paper().rows if row.joint is None)
+
+
+def budget() -> Budget:
+    """Section 3."""
+    settings = tables("bagging")["swarm"]
+    return Budget(settings["particles"], settings["iterations"])
+
+
+def certified(problem: Problem) -> dict[str, Any]:
+    """The family's optimum, proved to 1e-4 however long it takes: bound, best time, durations [s]."""
+    start = family_optimum(problem, random_starts=0)
+    found = family_bound(problem, gap=1e-4, time_limit=600.0, optimum=start)
+    durations = None if found.durations is None else found.durations.tolist()
+    return {"bound": found.seconds, "optimum": found.upper, "durations": durations}
+
+
+@cache
+def whole_optimum() -> dict[str, Any]:
+    """That of all joints together under the assumed limits."""
+    return certified(load("bagging"))
+
+
+# --- Table 3 --------------------------------------------------------------------------------------
+
+
+def make_table_3(full: bool) -> dict[str, Any]:
+    """Each joint alone: printed, repeated with both readings of the factors, certified."""
+    problem = load("bagging")
+    single, whole = rows()
+    runs = 30 if full else 10
+    joints: list[dict[str, Any]] = []
+    found: dict[str, list[list[Graded]]] = {swarm: [] for swarm in SWARMS}
+    for row in single:
+        assert row.joint is not None
+        one, motion = problem.joint(row.joint), Motion.of(paper(), row)
+        for swarm in SWARMS:
+            found[swarm].append(trials(one, swarm, budget(), runs))
+        joints.append({
+            "joint": row.joint + 1,
+            "times": [str(time) for time in row.times],
+            "printed": judged(one, values(row.times)),
+            "speed": float(motion.implied[0, 0]),
+            "own": certified(with_limits(motion.problem, motion.implied)),
+            "least": certified(one),
+            "trials": {swarm: summary(found[swarm][-1]) for swarm in SWARMS},
+        })  # fmt: skip
+    return {
+        "runs": runs,
+        "limit": float(problem.limits.velocity[0]),
+        "joints": joints,
+        "starred": {"times": [str(t) for t in whole.times], "total": str(whole.total),
+                    **judged(problem, values(whole.times)), "speed": float(_speeds(whole).max())},
+        "rule": {s: [_rule(problem, group) for group in zip(*found[s], strict=True)] for s in SWARMS},
+        "least": whole_optimum(),
+        "first_plan": sum(tables("bagging")["first_plan"]["times"]),
+    }  # fmt: skip
+
+
+def _speeds(row: Row) -> Array:
+    """Peak speed of each joint that moves in a printed motion of all joints [rad/s]."""
+    implied = Motion.of(paper(), row).implied[0]
+    return np.asarray(implied[np.isfinite(implied)])
+
+
+def _rule(problem: Problem, found: Sequence[Graded]) -> dict[str, Any] | None:
+    """The longest time per segment over the joints of one seed, judged; None where a run failed."""
+    vectors = [durations_of(g.row) for g in found]
+    if not all(v.size for v in vectors):
+        return None
+    return judged(problem, longest_segment(problem, vectors).claimed)
+
+
+def show_table_3(data: dict[str, Any]) -> Shown:
+    """Joint by joint, the speeds behind the printed times, the rule."""
+    header = ["joint", "", *(f"Δt{k}" for k in range(1, 7)), "total"]
+    lines = []
+    for j in data["joints"]:
+        number = str(j["joint"])
+        lines.append([number, "printed", *j["times"], f"{j['printed']['seconds']:.4f}"])
+        for swarm, title in SWARMS.items():
+            t = j["trials"][swarm]
+            cells = (
+                ["none"] * 7
+                if t["durations"] is None
+                else [f"{x:.4f}" for x in (*t["durations"], t["median"])]
+            )
+            lines.append([number, f"reproduced, {title}", *cells])
+        cells = [f"{x:.4f}" for x in (*j["least"]["durations"], j["least"]["optimum"])]
+        lines.append([number, "certified optimum", *cells])
+    s, least = data["starred"], data["least"]
+    lines.append(["longest", "printed (starred)", *s["times"], s["total"]])
+    for swarm, title in SWARMS.items():
+        rule = _median(data["rule"][swarm])
+        cells = (
+            ["none"] * 7
+            if rule is None
+            else [f"{x:.4f}" for x in (*rule["durations"], rule["seconds"])]
+        )
+        lines.append(["longest", f"reproduced, {title}", *cells])
+    cells = [f"{x:.4f}" for x in (*least["durations"], least["optimum"])]
+    lines.append(["all together", "certified optimum", *cells])
+    caption = (
+        f"Times [s]; reproduced: median of {data['runs']} seeds under {data['limit']:.4f} rad/s. Certified "
+        "optimum: nothing is faster by more than 1e-4 of it."
+    )
+    own = Table(
+        ["joint", "peak speed of the printed vector [rad/s]", "of the assumed limit", "printed total [s]",
+         "certified optimum under that speed [s]", "printed over optimum"],
+        [[str(j["joint"]), f"{j['speed']:.4f}", f"{100 * j['speed'] / data['limit']:.1f} %",
+          f"{j['printed']['seconds']:.4f}", f"{j['own']['optimum']:.4f}",
+          f"{j['printed']['seconds'] / j['own']['optimum']:.2f}"] for j in data["joints"]],
+        "What each printed vector would need as its velocity limit, and what that limit allows.",
+        range(1, 6),
+    )  # fmt: skip
+    return Shown([Table(header, lines, caption, range(2, 9)), own], _remarks_3(data))
+
+
+def _median(rule: Sequence[dict[str, Any] | None]) -> dict[str, Any] | None:
+    solved = sorted((r for r in rule if r is not None), key=lambda r: float(r["seconds"]))
+    return solved[(len(solved) - 1) // 2] if solved else None
+
+
+def _remarks_3(data: dict[str, Any]) -> list[str]:
+    limit, s, least = data["limit"], data["starred"], data["least"]
+    near = [str(j["joint"]) for j in data["joints"] if abs(j["speed"] / limit - 1.0) < 0.01]
+    over = [
+        f"{j['joint']} ({j['speed']:.2f} rad/s)" for j in data["joints"] if j["speed"] > 1.01 * limit
+    ]
+    ratios = [j["printed"]["seconds"] / j["own"]["optimum"] for j in data["joints"]]
+    times = [float(t) for t in s["times"]]
+    remarks = [
+        f"The velocity limit is not printed. pi rad/s is what the vectors of joints {listed(near)} reach "
+        f"within 1 %; those of joints {listed(over)} go far beyond it, so no one limit fits them all.",
+        "Whatever the limit was, none of the printed vectors is near the best: under its own peak speed each "
+        f"takes {min(ratios):.2f} to {max(ratios):.2f} times the certified optimum.",
+        f"The starred times add up to {sum(times):.4f} s (printed {s['total']} s), "
+        f"{100 * (1 - sum(times) / data['first_plan']):.2f} % less than {data['first_plan']} s, as printed. Their motion peaks at {s['speed']:.4f} rad/s and keeps "
+        f"pi rad/s: {'yes' if s['keeps'] else 'no'}; under pi rad/s {least['optimum']:.4f} s would do "
+        f"(certified for the family: not less than {least['bound']:.4f} s), with no limit on acceleration.",
+    ]
+    for swarm, title in SWARMS.items():
+        solved = [r for r in data["rule"][swarm] if r is not None]
+        if not solved:
+            remarks.append(
+                f"With {title} none of {data['runs']} seeds found a feasible motion of every joint."
+            )
+            continue
+        claims = sorted(r["seconds"] for r in solved)
+        honest = sorted(r["seconds"] * max(r["stretch"], 1.0) for r in solved)
+        kept = sum(r["keeps"] for r in solved)
+        remarks.append(
+            f"Reproduced with {title}, the rule claims {claims[0]:.4f} to {claims[-1]:.4f} s; {kept} of "
+            f"{len(solved)} motions keep the limits, slowed down until they do they take {honest[0]:.4f} to "
+            f"{honest[-1]:.4f} s."
+        )
+    return remarks
+
+
+# --- Fig. 5 ---------------------------------------------------------------------------------------
+
+
+@dataclass
+class Watched:
+    """An objective that remembers the best vector after each call."""
+
+    objective: Objective
+    best: float = np.inf
+    x: Array | None = None
+    seen: list[list[float] | None] = field(default_factory=list)
+
+    def __call__(self, x: Array) -> Array:
+        """Fitness of a population (n, dim)."""
+        fitness = self.objective(x)
+        first = int(fitness.argmin())
+        if fitness[first] < self.best:
+            self.best, self.x = float(fitness[first]), x[first].copy()
+        self.seen.append(None if self.x is None else self.x.tolist())
+        return fitness
+
+
+def evolution(problem: Problem, swarm: str, seed: int) -> list[list[float] | None]:
+    """The best vector after each iteration, the first population included [s]."""
+    watched = Watched(Objective(problem, stretch=False))
+    entry, (lo, hi) = ALGORITHMS[swarm], search_box(problem)
+    parameters = entry.parameters | {"population": budget().population}
+    minimise(entry.function, watched, lo, hi, budget=budget().evaluations, seed=seed, **parameters)
+    return watched.seen
+
+
+def make_fig_5(full: bool) -> dict[str, Any]:
+    """The best particle of seed 0 per joint; quartiles of the best time of many seeds."""
+    problem, (single, _) = load("bagging"), rows()
+    runs = 100 if full else 20
+    joints = []
+    for row in single:
+        assert row.joint is not None
+        one = problem.joint(row.joint)
+        found = {swarm: trials(one, swarm, budget(), runs) for swarm in SWARMS}
+        joints.append({
+            "joint": row.joint + 1,
+            "printed": values(row.times).tolist(),
+            "best": evolution(one, "mpso", 0),
+            "descents": {
+                swarm: descent([g.traces[0] for g in group], budget().population, budget().iterations)
+                for swarm, group in found.items()
+            },
+        })  # fmt: skip
+    return {"runs": runs, "iterations": budget().iterations, "joints": joints}
+
+
+def show_fig_5(data: dict[str, Any]) -> Shown:
+    """Both pictures, and when the particles come to rest."""
+    remarks = []
+    for j in data["joints"]:
+        solved = [x for x in j["best"] if x is not None]
+        if not solved:
+            remarks.append(f"Joint {j['joint']}: seed 0 found nothing feasible.")
+            continue
+        last = np.array(solved[-1])
+        settled = next(
+            k for k, x in enumerate(j["best"]) if x is not None and abs(sum(x) / last.sum() - 1) < 1e-3
+        )
+        medians = {s: j["descents"][s]["quartiles"][1][-1] for s in SWARMS}
+        ends = "; ".join(f"{SWARMS[s]} {v:.4f} s" for s, v in medians.items() if v is not None)
+        remarks.append(
+            f"Joint {j['joint']}: the best particle of seed 0 is within 0.1 % of its last total, "
+            f"{last.sum():.4f} s, after {settled} of {data['iterations']} iterations; printed: "
+            f"{sum(j['printed']):.4f} s. Medians of {data['runs']} seeds: {ends}."
+        )
+    return Shown([fig_5(data), descents_figure(data)], remarks)
+
+
+_SEGMENTS = ((BLUE, "-"), (ORANGE, "-"), (GREEN, "-"), (PURPLE, "--"), (SKY, "--"), (BLACK, "-."))
+
+
+@styled
+def fig_5(data: dict[str, Any]) -> Figure:
+    """The six durations of the best particle, a panel per joint; the printed ends beside them."""
+    figure, grid = plt.subplots(1, 5, figsize=(11.4, 3.0), sharey=True)
+    for axes, j in zip(grid, data["joints"], strict=True):
+        best = np.array([[np.nan] * 6 if x is None else x for x in j["best"]])
+        for k, (colour, line) in enumerate(_SEGMENTS):
+            axes.plot(best[:, k], color=colour, ls=line, lw=1.3, label=f"Δt{k + 1}")
+            axes.plot(
+                1.06 * data["iterations"], j["printed"][k], "x", color=colour, ms=5, clip_on=False
+            )
+        axes.set_yscale("log")
+        axes.set_title(f"joint {j['joint']}", loc="left")
+        axes.set_xlabel("iteration [1]")
+        axes.set_xlim(0, data["iterations"])
+    grid[0].set_ylabel("duration of the best particle [s]")
+    grid[0].plot([], [], "x", color=GREY, label="printed in Table 3")
+    handles, labels = grid[0].get_legend_handles_labels()
+    figure.legend(handles, labels, loc="outside lower center", ncols=7, frameon=False, fontsize=8)
+    return figure
+
+
+@styled
+def descents_figure(data: dict[str, Any]) -> Figure:
+    """Best total over the iterations, both readings of the factors, the printed total."""
+    figure, grid = plt.subplots(1, 5, figsize=(11.4, 2.8), sharey=True)
+    for axes, j in zip(grid, data["joints"], strict=True):
+        for swarm, style in zip(SWARMS, ((BLUE, "-"), (ORANGE, "--")), strict=True):
+            draw_descent(axes, j["descents"][swarm], SWARMS[swarm], style)
+        axes.axhline(sum(j["printed"]), color=VERMILION, lw=1.0, ls=":", label="printed in Table 3")
+        axes.set_yscale("log")
+        axes.set_title(f"joint {j['joint']}", loc="left")
+        axes.set_xlabel("iteration [1]")
+        axes.set_xlim(0, data["iterations"])
+    grid[0].set_ylabel(f"best total of {data['runs']} seeds [s]")
+    handles, labels = grid[0].get_legend_handles_labels()
+    figure.legend(handles, labels, loc="outside lower center", ncols=3, frameon=False, fontsize=8)
+    return figure
+
+
+ITEMS = (
+    Item(
+        "Table 3",
+        "times of every joint by MPSO, and the longest per segment",
+        make_table_3,
+        show_table_3,
+        "The velocity limit, the search box and the updates of eq. 12-13 are not printed: pi rad/s, a box of 3 "
+        "equal plans and the standard updates are taken. The printed factors, 0.05 falling to 0.02, hardly "
+        "pull; ten times as much is the other reading. 20 particles, 200 iterations.",
+        cost=25.0,
+    ),
+    Item(
+        "Fig 5",
+        "the best particle over the iterations",
+        make_fig_5,
+        show_fig_5,
+        "As Table 3. Which run is printed is not said: the first picture is seed 0, the second the quartiles "
+        "of many seeds.",
+        cost=20.0,
+    ),
+)
