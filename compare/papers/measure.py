@@ -69,4 +69,4 @@ def listed(values: Sequence[object]) -> str:
 
 def percent(share: float, digits: int = 1) -> str:
     """12.3 %."""
-    return f"{100.0 * share:.{digits}f} %"
+    return f"{100.0 * share:.{digits}f}\u00a0%"

@@ -20,7 +20,7 @@ from compare.papers.measure import judged, percent
 from compare.papers.panels import panels
 from compare.papers.printed import tables
 from compare.style import BLACK, BLUE, GREEN, GREY, ORANGE, VERMILION, styled
-from formulations import Problem, family_bound, family_optimum, load
+from formulations import FAMILIES, Problem, family_bound, family_optimum, load
 from formulations.arms import load_arm
 from formulations.problem import Array
 from metaheuristics import algorithm, minimise
@@ -165,6 +165,13 @@ def make_curves(full: bool) -> dict[str, Any]:
     }
     for entry in found.values():
         del entry["descent"]
+    ends = {}
+    for family in ("b-spline-5", "quintic"):
+        median = found[family]["median"]
+        if median is not None:
+            motion = FAMILIES[family].trajectory(task(family), median["durations"])
+            edge = np.abs([motion.at([0.0, motion.seconds], order) for order in (1, 2)]).max()
+            ends[family] = {"jump": float(motion.jumps[1:].max()), "edge": float(edge)}
     others = []
     for seed in range(SETS[full]):
         waypoints = drawn_waypoints(seed)
@@ -175,7 +182,7 @@ def make_curves(full: bool) -> dict[str, Any]:
             pair[family] = grade(run, problem, None, "none").row["seconds"]
         others.append({"seed": seed, **pair})
     optima = {family: family_optimum(task(family)).seconds for family in ("b-spline-5", "quintic")}
-    return {"found": found, "optima": optima, "others": others}
+    return {"found": found, "ends": ends, "optima": optima, "others": others}
 
 
 METHODS = {
@@ -264,9 +271,11 @@ def _remarks(data: dict[str, Any]) -> list[str]:
             "for degree 5."
         )
     if spline:
+        ends = data["ends"]["b-spline-5"]
         remarks.append(
-            f"Velocity and acceleration of the B-spline are continuous and vanish at both ends, as Figs 7 and "
-            f"8 say; the motion uses most of the {spline['most']}."
+            f"Velocity and acceleration of the B-spline jump by {ends['jump']:.0e} at most and are "
+            f"{ends['edge']:.0e} rad/s or rad/s² at the ends: continuous and at rest, as "
+            f"Figs 7 and 8 say; the motion uses most of the {spline['most']}."
         )
     return remarks
 
