@@ -11,7 +11,7 @@ from matplotlib.axes import Axes
 from compare.grade import Trace
 from compare.statistics import best_after
 
-_POINTS = 120  # of a stored curve
+_POINTS = 80  # of a stored curve
 
 
 def descent(traces: Sequence[Trace], population: int, iterations: int) -> dict[str, Any]:
@@ -28,10 +28,13 @@ def descent(traces: Sequence[Trace], population: int, iterations: int) -> dict[s
     }
 
 
-def draw_descent(axes: Axes, found: dict[str, Any], label: str, style: tuple[Any, Any]) -> None:
-    """The median as a line, the quartiles as a band."""
+def draw_descent(
+    axes: Axes, found: dict[str, Any], label: str, style: tuple[Any, Any], above: float | None = None
+) -> None:
+    """The median as a line, the quartiles as a band; as gaps to ``above`` if that is given."""
     at = np.array(found["iterations"])
-    low, middle, high = np.array(found["quartiles"], dtype=float)  # None -> nan
+    curves = np.array(found["quartiles"], dtype=float)  # None -> nan
+    low, middle, high = curves if above is None else curves / above - 1.0
     colour, line = style
     axes.plot(at, middle, color=colour, ls=line, lw=1.4, label=label)
     axes.fill_between(at, low, high, color=colour, alpha=0.15, lw=0)
