@@ -13,6 +13,8 @@ from formulations.arms import Arm, branches, load_arm, nearest, pose_of
 from formulations.arms.kinematics import error_of
 from formulations.problem import Array
 
+_DUST = 1e-9  # rad, rounding of the solver
+
 
 def make_inverse(paper: Paper) -> dict[str, Any]:
     """Per printed point: the solution nearest to the last one, all the others, and what rounding allows.
@@ -55,27 +57,21 @@ def _allowed(arm: Arm, point: Point, joints: Array, blur: Array) -> Array:
 
 
 def show_inverse(data: dict[str, Any]) -> Shown:
-    """A line per point and joint: printed, reproduced, apart, allowed."""
-    header = [
-        "point",
-        "joint",
-        "printed [rad]",
-        "reproduced [rad]",
-        "apart [rad]",
-        "rounding allows [rad]",
-    ]
+    """Two lines per point, printed and reproduced; what is more apart than rounding explains."""
+    dof = len(data["points"][0]["printed"])
+    header = ["point", "joint angles [rad]", *map(str, range(1, dof + 1)), "most apart [rad]"]
     rows, outside, apart = [], [], 0.0
     for number, point in enumerate(data["points"], start=1):
-        columns = (point[name] for name in ("printed", "found", "allowed"))
-        for joint, (printed, found, allowed) in enumerate(zip(*columns, strict=True), start=1):
-            gap = abs(found - printed)
-            apart = max(apart, gap)
-            rows.append([str(number) if joint == 1 else "", str(joint), f"{printed:.4f}", f"{found:.4f}",
-                         f"{gap:.1e}", f"{allowed:.1e}"])  # fmt: skip
-            if gap > allowed:
-                outside.append(
-                    f"joint {joint} of {point['where']} ({gap:.1e} rad where {allowed:.1e} is allowed)"
-                )
+        printed, found, allowed = (np.array(point[name]) for name in ("printed", "found", "allowed"))
+        gap = np.abs(found - printed)
+        apart = max(apart, float(gap.max()))
+        for name, angles, last in (("printed", printed, ""), ("reproduced", found, f"{gap.max():.1e}")):
+            cells = [f"{round(q, 4) + 0.0:.4f}" for q in angles.tolist()]  # no -0.0000
+            rows.append([f"{number}", name, *cells, last])
+        outside += [
+            f"joint {j + 1} of {point['where']} ({gap[j]:.1e} rad where {allowed[j]:.1e} is allowed)"
+            for j in np.flatnonzero(gap > allowed + _DUST)
+        ]
     counts = [point["branches"] for point in data["points"]]
     misses, turns = ([point[name] for point in data["points"]] for name in ("miss", "turn"))
     as_printed = [point["miss_as_printed"] for point in data["points"]]
@@ -96,4 +92,4 @@ def show_inverse(data: dict[str, Any]) -> Shown:
             "The other reading, the DH table as printed without offsets, misses the printed points by "
             f"{1e3 * min(as_printed):.0f} to {1e3 * max(as_printed):.0f} mm."
         )
-    return Shown([Table(header, rows, "", (1, 2, 3, 4, 5))], remarks)
+    return Shown([Table(header, rows, "", range(2, dof + 3))], remarks)

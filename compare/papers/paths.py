@@ -8,6 +8,7 @@ from typing import Any
 import matplotlib.pyplot as plt
 import numpy as np
 from matplotlib.figure import Figure
+from matplotlib.patheffects import withStroke
 
 from compare.style import BLACK, styled
 from formulations import Trajectory
@@ -16,6 +17,7 @@ from formulations.problem import Array
 
 _VIEWS = (("from above", 0, 1), ("from the front", 0, 2), ("from the side", 1, 2))
 _AXES = "xyz"
+_HALO = [withStroke(linewidth=2.5, foreground="white")]
 
 
 def tool_path(arm: Arm, trajectory: Trajectory, count: int = 400) -> Array:
@@ -48,8 +50,10 @@ def path_views(
         )
         printed = 1e3 * points
         axes.plot(printed[:, right], printed[:, up], "x", color=BLACK, ms=5, label="printed points")
-        for spot, name in _apart(printed[:, [right, up]], names):
-            axes.annotate(name, spot, textcoords="offset points", xytext=(6, 5), fontsize=8)
+        spots = _apart(printed[:, [right, up]], names)
+        for spot, name in spots:
+            axes.annotate(name, spot, textcoords="offset points", xytext=_aside(spot, spots), fontsize=8,
+                          ha="center", va="center", path_effects=_HALO)  # fmt: skip
         axes.set_aspect("equal", adjustable="datalim")
         axes.margins(0.12)
         axes.set_xlabel(f"{_AXES[right]} [mm]")
@@ -58,6 +62,13 @@ def path_views(
     handles, labels = grid[0].get_legend_handles_labels()
     figure.legend(handles, labels, loc="outside lower center", ncols=3, frameon=False, fontsize=8)
     return figure
+
+
+def _aside(spot: Any, spots: list[tuple[Any, str]]) -> tuple[float, float]:
+    """Where a label goes, in points: away from the nearest other point."""
+    away = min((spot - other for other, _ in spots if other is not spot), key=np.linalg.norm)
+    x, y = 12.0 * away / np.linalg.norm(away)
+    return float(x), float(y)
 
 
 def _apart(spots: Array, names: Sequence[str]) -> list[tuple[Any, str]]:
