@@ -12,9 +12,9 @@ from compare.papers.cobot import make_angles
 from compare.papers.descent import descent
 from compare.papers.measure import judged, least, listed, percent, summary, trials
 from compare.papers.printed import tables
-from compare.papers.ur5 import approach
+from compare.papers.ur5_angles import approach
 from compare.papers.z1 import one_orbit, orbit
-from compare.papers.z1_motion import drawn_waypoints
+from compare.papers.z1_plan import drawn_waypoints
 from compare.suite import Budget
 from formulations import load
 

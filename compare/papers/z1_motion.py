@@ -8,72 +8,21 @@ from typing import Any
 import matplotlib.pyplot as plt
 import numpy as np
 from matplotlib.figure import Figure
-from numpy.random import SeedSequence
 
 from compare.audit.paper_file import load_papers
-from compare.grade import Run, Trace, grade
-from compare.objective import Objective
+from compare.grade import Run, grade
 from compare.papers.curves import all_joints, verdict_told
-from compare.papers.descent import descent, draw_descent
+from compare.papers.descent import draw_descent
 from compare.papers.item import Item, Shown, Table
-from compare.papers.measure import judged, percent
+from compare.papers.measure import percent
 from compare.papers.panels import panels
 from compare.papers.printed import tables
+from compare.papers.z1_plan import drawn_waypoints, plan, task
 from compare.style import BLACK, BLUE, GREEN, GREY, ORANGE, VERMILION, styled
-from formulations import FAMILIES, Problem, family_bound, family_optimum, load
-from formulations.arms import load_arm
-from formulations.problem import Array
-from metaheuristics import algorithm, minimise
+from formulations import FAMILIES, family_bound, family_optimum
 
 RUNS = {False: 5, True: 30}
 SETS = {False: 10, True: 50}  # further waypoints
-_SHORTEST = 1e-3  # s, for the printed 0: a duration is positive
-
-
-def drawn_waypoints(seed: int) -> Array:
-    """Eight waypoints by the rule of the case file (whose seed is 2024), (8, 6) [rad]."""
-    arm, rng = load_arm("z1"), np.random.default_rng(seed)
-    found: list[Array] = []
-    low, high = (arm.position + np.deg2rad(5.0) * np.array([1.0, -1.0])).T
-    while len(found) < 8:
-        q = rng.uniform(low, high)
-        x, y, z = arm.chain.forward(q)[:3, 3]
-        if z > 0.05 and np.hypot(x, y) > 0.15:
-            found.append(np.round(np.rad2deg(q), 1))
-    return np.deg2rad(found)
-
-
-def plan(problem: Problem, swarm: str, runs: int) -> dict[str, Any]:
-    """Runs by the paper's protocol: its box and budget, infeasible = worst fitness; the median judged.
-
-    seconds: of all solved runs. best: durations of the shortest.
-    """
-    setup = tables("z1")["swarm"]
-    n, iterations = setup["population"], setup["iterations"]
-    entry = algorithm(swarm)
-    lo, hi = np.full(problem.n_segments, _SHORTEST), np.full(problem.n_segments, float(setup["high"]))
-    results = [
-        minimise(
-            entry.function, Objective(problem, stretch=False), lo, hi, budget=n * (iterations + 1),
-            seed=SeedSequence([seed]), **{**entry.parameters, "population": n},
-        )
-        for seed in range(runs)
-    ]  # fmt: skip
-    solved = sorted((r for r in results if r.x is not None), key=lambda r: r.fitness)
-    traces = [Trace(-1, r.trace_evaluations.tolist(), r.trace_best.tolist()) for r in results]
-    median = solved[(len(solved) - 1) // 2].x if solved else None
-    return {
-        "runs": runs,
-        "seconds": [r.fitness for r in solved],
-        "median": None if median is None else judged(problem, median),
-        "descent": descent(traces, n, iterations),
-    }
-
-
-def task(family: str) -> Problem:
-    """The case z1 in one of the families compared."""
-    return replace(load("z1"), family=family)
-
 
 # --- Fig. 5 ---------------------------------------------------------------------------------------
 
@@ -89,7 +38,7 @@ def make_descent(full: bool) -> dict[str, Any]:
     problem = task("b-spline-5")
     found = {swarm: plan(problem, swarm, RUNS[full]) for swarm in SWARMS}
     optimum = family_optimum(problem)
-    bound = family_bound(problem, optimum=optimum, time_limit=4.0)
+    bound = family_bound(problem, optimum=optimum)
     return {"found": found, "optimum": optimum.seconds, "bound": bound.seconds}
 
 
