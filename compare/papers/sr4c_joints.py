@@ -89,7 +89,7 @@ def show_table_9(data: dict[str, Any]) -> Shown:
                   seconds(data["least"]["optimum"])])  # fmt: skip
     caption = (
         f"Times [s]; reproduced: median of {data['runs']} seeds and the best total. Uses: the limit of Table 6 "
-        "that the printed vector uses most. Certified optimum: nothing is faster by more than 1e-5 of it; "
+        "that the printed vector uses most. Certified optimum: nothing is faster by more than 1e-6 of it; "
         "each joint alone, in the last line all joints together."
     )
     right = [0, 1, 2, 3, 4, 6, 7, 8, 9, 10, 11]

@@ -13,7 +13,7 @@ from compare.papers.measure import judged, least, listed
 from compare.papers.panels import Curve, panels
 from compare.papers.paths import length, path_views, tool_path
 from compare.papers.printed import tables
-from compare.papers.printed_motions import printed, used_most
+from compare.papers.printed_motions import printed
 from compare.papers.sr4c_paper import (
     above,
     paper,
@@ -22,7 +22,7 @@ from compare.papers.sr4c_paper import (
     spline,
 )
 from compare.style import BLUE, ORANGE, VERMILION
-from formulations import check, load
+from formulations import load
 from formulations.arms import load_arm
 
 PLAN, RULE, BEST = "2 s a segment, printed plan", "sec. 4.2.2, printed result", "certified optimum"
@@ -39,9 +39,6 @@ def _three_motions() -> dict[str, dict[str, Any]]:
         BEST: least(problem)["durations"],
     }
     found = {name: judged(problem, times) for name, times in durations.items()}
-    for name, times in durations.items():
-        verdict = check(problem, spline(problem, times))
-        found[name]["most"] = used_most(verdict)
     found[RULE]["digits"] = printed(paper(), whole)["keeps"]
     return found
 
