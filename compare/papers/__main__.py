@@ -93,24 +93,38 @@ def make(calls: list[Call], jobs: int) -> Iterator[tuple[str, Item, Made]]:
             for paper, item, made in each(pool, "papers", shelf.make, calls):
                 del left[paper, item.key]
                 yield paper, item, made
-    except BrokenProcessPool:  # one of them took the pool with it; alone, it takes itself
-        for call in left.values():
-            try:
-                with workers(1) as pool:
-                    yield from each(pool, call[2].label, shelf.make, [call])
-            except BrokenProcessPool:
-                yield call[1], call[2], shelf.died(*call)
+    except BrokenProcessPool:  # one of them took the pool with it; in single file it shows which
+        yield from _one_by_one(list(left.values()))
+
+
+def _one_by_one(calls: list[Call]) -> Iterator[tuple[str, Item, Made]]:
+    while calls:
+        try:
+            with workers(1) as pool:
+                while calls:
+                    made = pool.submit(shelf.make, *calls[0]).result()
+                    calls = calls[1:]
+                    yield made
+        except BrokenProcessPool:
+            _, paper, item, _ = calls[0]
+            yield paper, item, shelf.died(*calls[0])
+            calls = calls[1:]
 
 
 def draw(folder: str, chosen: dict[str, list[Item]], jobs: int) -> list[str]:
     """Write the chapters; a line for each chosen item that has failed."""
-    failed = []
     calls = [(folder, paper, ITEMS[paper]) for paper in chosen]
-    with workers(min(jobs, len(calls))) as pool:
-        for paper, faults in each(pool, "chapters", page.render, calls):
-            mine = {item.label for item in chosen[paper]}
-            failed += [f"{paper}: {label}: {fault}" for label, fault in faults.items() if label in mine]
-    return sorted(failed)
+    if min(jobs, len(calls)) == 1:  # not worth a process
+        chapters = [page.render(*call) for call in calls]
+    else:
+        with workers(min(jobs, len(calls))) as pool:
+            chapters = list(each(pool, "chapters", page.render, calls))
+    return sorted(
+        f"{paper}: {item.label}: {faults[item.label]}"
+        for paper, faults in chapters
+        for item in chosen[paper]
+        if item.label in faults
+    )
 
 
 if __name__ == "__main__":

@@ -1,4 +1,4 @@
-"""Paper 000, its arm and its motions: Table 5, Figs 7-9, Fig. 11, Figs 12-14."""
+"""Paper 000, its arm and its motions: Table 5, Figs 7-9, Fig. 11."""
 
 from __future__ import annotations
 
@@ -6,7 +6,6 @@ from typing import Any
 
 import numpy as np
 
-from compare import table8
 from compare.audit.printed import halves, values
 from compare.papers.inverse import make_inverse, show_inverse
 from compare.papers.item import Item, Shown, Table
@@ -14,34 +13,20 @@ from compare.papers.measure import judged, least, listed
 from compare.papers.panels import Curve, panels
 from compare.papers.paths import length, path_views, tool_path
 from compare.papers.printed import tables
-from compare.papers.printed_motions import printed, used_most
-from compare.papers.sr4c_times import (
-    IN_FORCE,
-    TABLE_6,
+from compare.papers.printed_motions import printed
+from compare.papers.sr4c_paper import (
     above,
     paper,
+    peaks,
     seconds,
-    table_10_rows,
-    with_speed,
+    spline,
 )
-from compare.style import BLUE, GREEN, ORANGE, VERMILION
-from formulations import FAMILIES, Problem, Trajectory, check, load
+from compare.style import BLUE, ORANGE, VERMILION
+from formulations import load
 from formulations.arms import load_arm
-from formulations.problem import Array
 
 PLAN, RULE, BEST = "2 s a segment, printed plan", "sec. 4.2.2, printed result", "certified optimum"
 STYLES = {PLAN: (ORANGE, "-"), RULE: (VERMILION, "-"), BEST: (BLUE, "--")}
-
-
-def spline(problem: Problem, durations: list[float]) -> Trajectory:
-    """The motion of the problem's family."""
-    return FAMILIES[problem.family].trajectory(problem, np.array(durations))
-
-
-def peaks(trajectory: Trajectory) -> Array:
-    """Peaks of |velocity| and |acceleration| per joint, (2, dof) [deg/s, deg/s²]."""
-    found = [trajectory.extremes(order) for order in (1, 2)]
-    return np.degrees([np.maximum(-e.low, e.high).max(axis=0) for e in found])
 
 
 def _three_motions() -> dict[str, dict[str, Any]]:
@@ -54,9 +39,6 @@ def _three_motions() -> dict[str, dict[str, Any]]:
         BEST: least(problem)["durations"],
     }
     found = {name: judged(problem, times) for name, times in durations.items()}
-    for name, times in durations.items():
-        verdict = check(problem, spline(problem, times))
-        found[name]["most"] = used_most(verdict)
     found[RULE]["digits"] = printed(paper(), whole)["keeps"]
     return found
 
@@ -163,77 +145,6 @@ def show_path(data: dict[str, Any]) -> Shown:
     return Shown([figure], remarks)
 
 
-# --- Figs 12-14 -----------------------------------------------------------------------------------
-
-
-def make_speeds(full: bool) -> dict[str, Any]:
-    """Printed vectors and certified optima of joint 1 under each speed limit."""
-    rows = []
-    for velocity, row in table_10_rows():
-        motions = {"printed": values(row.times).tolist()}
-        entry: dict[str, Any] = {"velocity": velocity, "keeps": printed(paper(), row)["keeps"]}
-        for name in (IN_FORCE, TABLE_6):
-            problem = with_speed(velocity, table8.LIMITS[name][1])
-            motions[name] = least(problem)["durations"]
-        entry["motions"] = {
-            name: {
-                **judged(with_speed(velocity, table8.LIMITS[TABLE_6][1]), times),
-                "peaks": peaks(spline(load("sr4c").joint(0), times))[:, 0].tolist(),
-            }
-            for name, times in motions.items()
-        }
-        rows.append(entry)
-    return {"rows": rows}
-
-
-def show_speeds(data: dict[str, Any]) -> Shown:
-    """A column per speed limit."""
-    accelerations = {name: table8.LIMITS[name][1] for name in (IN_FORCE, TABLE_6)}
-    drawn = {
-        "printed": ("printed in Table 10", (VERMILION, "-"), accelerations[TABLE_6]),
-        IN_FORCE: (
-            f"optimum, {accelerations[IN_FORCE]:.0f} deg/s²",
-            (BLUE, "--"),
-            accelerations[IN_FORCE],
-        ),
-        TABLE_6: (
-            f"optimum, {accelerations[TABLE_6]:.0f} deg/s²",
-            (GREEN, "-."),
-            accelerations[TABLE_6],
-        ),
-    }
-    columns = []
-    rows, remarks = [], []
-    for row in data["rows"]:
-        curves = []
-        for name, (label, style, acceleration) in drawn.items():
-            problem = with_speed(row["velocity"], acceleration)
-            motion = row["motions"][name]
-            curves.append(Curve(label, style, problem, spline(problem, motion["durations"])))
-            speed, rate = motion["peaks"]
-            rows.append(
-                [
-                    f"{row['velocity']:g}",
-                    label,
-                    seconds(motion["seconds"]),
-                    f"{speed:.2f}",
-                    f"{rate:.2f}",
-                ]
-            )
-        columns.append((f"limit {row['velocity']:g} deg/s", curves))
-        speed, rate = row["motions"]["printed"]["peaks"]
-        remarks.append(
-            f"Limit {row['velocity']:g} deg/s: the printed vector peaks at {speed:.2f} deg/s and "
-            f"{rate:.2f} deg/s². It keeps the limits: {row['keeps']}; the acceleration that Table 6 allows is "
-            f"used to {100 * rate / accelerations[TABLE_6]:.0f} %."
-        )
-    table = Table(
-        ["limit [deg/s]", "motion of joint 1", "time [s]", "peak speed [deg/s]", "peak acceleration [deg/s²]"],
-        rows, "", (0, 2, 3, 4),
-    )  # fmt: skip
-    return Shown([panels(columns), table], remarks)
-
-
 # --- Table 5 --------------------------------------------------------------------------------------
 
 
@@ -274,14 +185,5 @@ ITEMS = (
         show_path,
         "The path of the printed result, by forward kinematics; the plan and the optimum beside it.",
         cost=3.0,
-    ),
-    Item(
-        "Figs 12-14",
-        "joint 1 under three velocity limits",
-        make_speeds,
-        show_speeds,
-        "The printed vectors of Table 10 put back into the spline. The acceleration limit is not named: the "
-        "optimum under Table 6's and under the one in force elsewhere stand beside them.",
-        cost=5.0,
     ),
 )
