@@ -63,6 +63,7 @@ def render(folder: str, key: str, items: Sequence[Item]) -> tuple[str, dict[str,
         "machines": sorted({m.machine for m in made}),
         "versions": sorted({m.versions for m in made}),
         "seconds": sum(m.seconds for m in made),
+        "report": (Path(folder) / "index.html").exists(),
     }
     path = Path(folder) / "papers" / f"{key}.html"
     path.parent.mkdir(parents=True, exist_ok=True)
