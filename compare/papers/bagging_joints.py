@@ -129,7 +129,7 @@ def show_table_3(data: dict[str, Any]) -> Shown:
         [[str(j["joint"]), f"{j['speed']:.4f}", f"{100 * j['speed'] / data['limit']:.1f} %",
           f"{j['printed']['seconds']:.4f}", f"{j['own']['optimum']:.4f}",
           f"{j['printed']['seconds'] / j['own']['optimum']:.2f}"] for j in data["joints"]],
-        "What each printed vector would need as its velocity limit, and the certified optimum under that limit.",
+        "What each printed vector would need as its velocity limit, and the certified optimum under it.",
         range(1, 6),
     )  # fmt: skip
     return Shown([Table(header, lines, caption, range(2, 9)), own], _remarks_3(data))

@@ -56,7 +56,7 @@ def show_ablation(data: dict[str, Any]) -> Shown:
         remarks.append(
             f"Without {strategy}: printed factors are all at least {least:.2f}; reproduced, it helps on "
             f"{o['helps']} of {len(found)} functions, hurts on {o['hurts']}, and no difference is shown on "
-            f"{o['no difference']}; over all functions {o['verdict']} (geometric mean over f - f* "
+            f"{o['no difference']}; over all functions: {o['verdict']} (geometric mean over f - f* "
             f"{o['geometric_mean']:.3f}, p = {o['p_holm']:.2g})."
         )
     raw = [abs(e["raw"] - e["printed"]) for functions in entries.values() for e in functions.values()]
