@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import multiprocessing
 import os
 import sys
 import time
@@ -61,9 +62,14 @@ def main() -> int:
         + (f", {total - len(calls)} of them finished before" if total > len(calls) else ""),
         file=sys.stderr,
     )
-    for paper, item, made in make(calls, jobs):
-        tqdm.write(f"{paper}: {item.label}: {made.status}, {made.seconds:.1f} s", file=sys.stderr)
-    failed = draw(str(folder), chosen, jobs)
+    try:
+        for paper, item, made in make(calls, jobs):
+            tqdm.write(f"{paper}: {item.label}: {made.status}, {made.seconds:.1f} s", file=sys.stderr)
+        failed = draw(str(folder), chosen, jobs)
+    except KeyboardInterrupt:
+        for worker in multiprocessing.active_children():
+            worker.terminate()  # what it makes may take minutes more
+        raise
     for line in failed:
         print(f"error: {line}", file=sys.stderr)
     for paper in chosen:
