@@ -17,17 +17,18 @@ from compare import ablation, commands, table8
 from compare.audit.paper_file import load_papers
 from compare.audit.printed import values
 from compare.objective import Objective, search_box
-from compare.papers import ITEMS, page, sr4c_swarm
+from compare.papers import ITEMS, page
 from compare.papers import __main__ as papers
-from compare.papers.bagging_evolution import evolution
-from compare.papers.bagging_paper import budget as budget_of_001
+from compare.papers.bagging.evolution import evolution
+from compare.papers.bagging.paper import budget as budget_of_001
 from compare.papers.inverse import make_inverse
 from compare.papers.item import Item, Shown, Table
 from compare.papers.panels import Curve, panels
 from compare.papers.printed import tables
 from compare.papers.printed_motions import printed
-from compare.papers.sr4c_paper import budget as budget_of_000
-from compare.papers.sr4c_paper import spline, with_speed
+from compare.papers.sr4c import swarm as sr4c_swarm
+from compare.papers.sr4c.paper import budget as budget_of_000
+from compare.papers.sr4c.paper import spline, with_speed
 from compare.suite import PAPER_BUDGETS
 from formulations import load
 from metaheuristics import ALGORITHMS, minimise

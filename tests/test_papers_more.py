@@ -8,13 +8,13 @@ import pytest
 
 from compare.grade import Trace
 from compare.papers import ITEMS
-from compare.papers.cobot import make_angles
+from compare.papers.cobot.angles import make_angles
 from compare.papers.descent import descent
 from compare.papers.measure import judged, least, listed, percent, summary, trials
 from compare.papers.printed import tables
-from compare.papers.ur5_angles import approach
-from compare.papers.z1 import one_orbit, orbit
-from compare.papers.z1_plan import drawn_waypoints
+from compare.papers.ur5.angles import approach
+from compare.papers.z1.chaos import one_orbit, orbit
+from compare.papers.z1.plan import drawn_waypoints
 from compare.suite import Budget
 from formulations import load
 

@@ -16,7 +16,7 @@ from compare.grade import Graded
 from compare.papers.descent import descent, draw_descent
 from compare.papers.item import Item, Shown, Table
 from compare.papers.measure import listed, trials
-from compare.papers.sr4c_paper import (
+from compare.papers.sr4c.paper import (
     IN_FORCE,
     SWARM,
     TABLE_6,

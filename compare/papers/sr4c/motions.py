@@ -14,7 +14,7 @@ from compare.papers.panels import Curve, panels
 from compare.papers.paths import length, path_views, tool_path
 from compare.papers.printed import tables
 from compare.papers.printed_motions import printed
-from compare.papers.sr4c_paper import (
+from compare.papers.sr4c.paper import (
     above,
     paper,
     peaks,

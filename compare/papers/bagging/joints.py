@@ -13,7 +13,7 @@ from compare.audit.paper import Row
 from compare.audit.printed import values
 from compare.grade import Graded, durations_of
 from compare.objective import Objective
-from compare.papers.bagging_paper import READINGS, SWARMS, budget, certified, paper, rows, whole_optimum
+from compare.papers.bagging.paper import READINGS, SWARMS, budget, certified, paper, rows, whole_optimum
 from compare.papers.item import Item, Shown, Table
 from compare.papers.measure import judged, listed, summary, trials
 from compare.papers.printed import tables

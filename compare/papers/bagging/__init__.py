@@ -2,10 +2,10 @@
 
 from __future__ import annotations
 
-from compare.papers import bagging_evolution, bagging_joints, bagging_motions
+from compare.papers.bagging import evolution, joints, motions
 from compare.papers.item import Item
 
 _ORDER = ("Table 2", "Fig 4", "Fig 5", "Table 3", "Fig 6")
-_PARTS = (bagging_evolution, bagging_joints, bagging_motions)
+_PARTS = (evolution, joints, motions)
 _BY_LABEL = {item.label: item for part in _PARTS for item in part.ITEMS}
 ITEMS: tuple[Item, ...] = tuple(_BY_LABEL[label] for label in _ORDER)

@@ -186,7 +186,7 @@ def _waypoints(joint: int) -> str:
     return f"{angles.min():.0f} to {angles.max():.0f}"
 
 
-FIGURES: tuple[Item, ...] = (
+ITEMS: tuple[Item, ...] = (
     Item(
         "Fig 5",
         "path of the tool",

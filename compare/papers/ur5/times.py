@@ -1,4 +1,4 @@
-"""Paper 002 (UR5, ISSA): Tables 4 to 6, times of each joint by three swarms; all items of the paper."""
+"""Tables 4 to 6 of 002: times of each joint by PSO, sparrow search and ISSA."""
 
 from __future__ import annotations
 
@@ -13,8 +13,6 @@ from compare.audit.paper_file import load_papers
 from compare.papers.item import Item, Shown, Table
 from compare.papers.measure import judged, least, listed, percent, summary, trials
 from compare.papers.printed import tables
-from compare.papers.ur5_angles import TABLE_2
-from compare.papers.ur5_motion import FIGURES
 from compare.suite import PAPER_BUDGETS
 from formulations import Problem, load, longest_segment
 
@@ -137,7 +135,6 @@ def _reproduced(times: list[float]) -> list[str]:
 
 
 ITEMS: tuple[Item, ...] = (
-    TABLE_2,
     Item(
         "Tables 4-6",
         "times of each joint by PSO, sparrow search and ISSA",
@@ -150,5 +147,4 @@ ITEMS: tuple[Item, ...] = (
         "restored.",
         cost=25.0,
     ),
-    *FIGURES,
 )

@@ -210,7 +210,7 @@ def show_curves(data: dict[str, Any]) -> Shown:
     )
 
 
-FIGURES: tuple[Item, ...] = (
+ITEMS: tuple[Item, ...] = (
     Item(
         "Fig 6",
         "convergence for each joint",

@@ -7,7 +7,7 @@ from typing import Any
 import numpy as np
 
 from compare.audit.printed import values
-from compare.papers.bagging_paper import paper, rows, whole_optimum
+from compare.papers.bagging.paper import paper, rows, whole_optimum
 from compare.papers.inverse import make_inverse, show_inverse
 from compare.papers.item import Item, Shown, Table
 from compare.papers.measure import judged

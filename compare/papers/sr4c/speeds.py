@@ -10,7 +10,7 @@ from compare.papers.item import Item, Shown, Table
 from compare.papers.measure import judged, least, summary, trials
 from compare.papers.panels import Curve, panels
 from compare.papers.printed_motions import printed
-from compare.papers.sr4c_paper import (
+from compare.papers.sr4c.paper import (
     IN_FORCE,
     SWARM,
     TABLE_6,

@@ -15,7 +15,7 @@ from compare.grade import Graded, durations_of
 from compare.papers.item import Item, Shown, Table
 from compare.papers.measure import judged, least, listed, summary, trials
 from compare.papers.printed_motions import printed
-from compare.papers.sr4c_paper import (
+from compare.papers.sr4c.paper import (
     IN_FORCE,
     SWARM,
     above,

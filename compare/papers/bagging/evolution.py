@@ -11,7 +11,7 @@ from matplotlib.figure import Figure
 
 from compare.audit.printed import values
 from compare.objective import Objective, search_box
-from compare.papers.bagging_paper import SWARMS, budget, rows
+from compare.papers.bagging.paper import SWARMS, budget, rows
 from compare.papers.descent import descent, draw_descent
 from compare.papers.item import Item, Shown
 from compare.papers.measure import trials

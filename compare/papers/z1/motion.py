@@ -17,7 +17,7 @@ from compare.papers.item import Item, Shown, Table
 from compare.papers.measure import percent
 from compare.papers.panels import panels
 from compare.papers.printed import tables
-from compare.papers.z1_plan import drawn_waypoints, plan, task
+from compare.papers.z1.plan import drawn_waypoints, plan, task
 from compare.style import BLACK, BLUE, GREEN, GREY, ORANGE, VERMILION, styled
 from formulations import FAMILIES, family_bound, family_optimum
 
@@ -229,7 +229,7 @@ def _remarks(data: dict[str, Any]) -> list[str]:
     return remarks
 
 
-FIGURES: tuple[Item, ...] = (
+ITEMS: tuple[Item, ...] = (
     Item(
         "Fig 5",
         "convergence",

@@ -124,11 +124,13 @@ def _triple(numbers: list[float], digits: int) -> str:
     return ", ".join(f"{n:.{digits}f}" for n in numbers)
 
 
-TABLE_2 = Item(
-    "Table 2",
-    "joint angles of the four points",
-    make_angles,
-    show_angles,
-    "The paper does not say how its inverse kinematics was solved, nor in which orientation. Read as the "
-    "unit-weight least squares of a robotics toolbox, in the orientation that the printed angles have.",
+ITEMS: tuple[Item, ...] = (
+    Item(
+        "Table 2",
+        "joint angles of the four points",
+        make_angles,
+        show_angles,
+        "The paper does not say how its inverse kinematics was solved, nor in which orientation. Read as the "
+        "unit-weight least squares of a robotics toolbox, in the orientation that the printed angles have.",
+    ),
 )
