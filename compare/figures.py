@@ -349,7 +349,7 @@ def _curves(
     unit: float,
 ) -> None:
     """One joint, one quantity."""
-    t, x = _samples(motion, joint, order)
+    t, x = samples(motion, joint, order)
     low, high = (
         problem.position_bounds[joint]
         if order == 0
@@ -357,7 +357,7 @@ def _curves(
     )
     extent = np.abs(x).max()
     if claimed is not None:
-        tc, xc = _samples(claimed, joint, order)
+        tc, xc = samples(claimed, joint, order)
         axes.plot(tc, xc * unit, color=VERMILION, lw=0.9, alpha=0.8)
         over = np.where((xc > high * (1 + 1e-6)) | (xc < low * (1 + 1e-6)), xc, np.nan)
         axes.plot(tc, over * unit, color=VERMILION, lw=3.0)
@@ -373,7 +373,7 @@ def _curves(
         axes.axvline(passage, color=GREY, lw=0.4, alpha=0.6)
 
 
-def _samples(motion: Trajectory, joint: int, order: int) -> tuple[Array, Array]:
+def samples(motion: Trajectory, joint: int, order: int) -> tuple[Array, Array]:
     """Curve points for drawing; pieces are kept apart, so that jumps of the jerk are upright."""
     s = np.linspace(1e-9, 1.0 - 1e-9, 60)
     t = (motion.breaks[:-1, None] + motion.durations[:, None] * s).ravel()

@@ -21,6 +21,7 @@ from typing import Any
 
 import numpy as np
 from scipy.optimize import minimize
+from tqdm import tqdm
 
 from compare import commands
 from compare.free_form_study import cases, random_problems
@@ -242,7 +243,8 @@ def main() -> int:
         "pyroboplan": partial(pyroboplan),
     }
     lines: list[Line] = []
-    for problem in [*cases(), *random_problems(options.count, 0)]:
+    problems = [*cases(), *random_problems(options.count, 0)]
+    for problem in tqdm(problems, "problems", disable=None, leave=False):
         if not problem.limits.has_acceleration:
             continue  # no motion attains the infimum: there is nothing to compare
         line, motion = ours(problem)

@@ -70,15 +70,15 @@ def convergence(
     grid = np.unique(np.geomspace(1, budget, points).round())
     gaps = []
     for traces in runs:
-        each = [_at(trace, grid) / optima[trace.joint] - 1.0 for trace in traces]
+        each = [best_after(trace, grid) / optima[trace.joint] - 1.0 for trace in traces]
         gaps.append(np.mean(each, axis=0))
     # the median of runs is infinite while fewer than half of them have found a feasible point
     quartiles = np.quantile(np.array(gaps), [0.25, 0.5, 0.75], axis=0, method="nearest")
     return grid, quartiles
 
 
-def _at(trace: Trace, grid: Array) -> Array:
-    """Best fitness after each number of evaluations; infinite before the first entry."""
+def best_after(trace: Trace, grid: Array) -> Array:
+    """Best fitness after each number of evaluations (m,): (m,); infinite before the first entry."""
     index = np.searchsorted(trace.evaluations, grid, side="right") - 1
     best = np.array(trace.best)
     return np.where(index >= 0, best[np.maximum(index, 0)], np.inf)

@@ -3,6 +3,8 @@
 from __future__ import annotations
 
 import functools
+import pickle
+from pathlib import Path
 
 import numpy as np
 import pytest
@@ -87,7 +89,25 @@ def durations(n: int, low: float = -3.0, high: float = 3.0) -> st.SearchStrategy
     return st.lists(powers_of_ten(low, high), min_size=n, max_size=n).map(np.array)
 
 
+_SHARED: list[Path] = []  # folder of this run, common to its workers
+
+
+@pytest.fixture(scope="session", autouse=True)
+def _shared_folder(tmp_path_factory: pytest.TempPathFactory, worker_id: str) -> None:
+    base = tmp_path_factory.getbasetemp()
+    _SHARED.append(base if worker_id == "master" else base.parent)
+
+
 @functools.cache
 def climbed(case: str) -> Ladder:
-    """The ladder of a shipped case, climbed once for all tests: it holds every optimum of the case."""
-    return ladder(load(case))
+    """The ladder of a shipped case, climbed once for all tests and workers: it holds its optima."""
+    path = _SHARED[0] / f"{case}.ladder"
+    if path.exists():
+        found = pickle.loads(path.read_bytes())
+        assert isinstance(found, Ladder)
+        return found
+    found = ladder(load(case))
+    part = path.with_suffix(f".{id(found)}")
+    part.write_bytes(pickle.dumps(found))
+    part.replace(path)
+    return found

@@ -34,7 +34,7 @@ from formulations import (
     load,
     longest_segment,
 )
-from formulations.family_optimum import shortest_segments
+from formulations.exchange import shortest_segments
 
 THREE = [case for case in CASES if load(case).family == "3-5-3"]
 NO_SHRINKING = (Phase.explicit, Phase.generate)  # each example costs a second
@@ -196,8 +196,10 @@ def test_other_families_agree_with_differential_evolution(
 @pytest.mark.slow
 @pytest.mark.parametrize("case", THREE)
 def test_every_joint_alone_agrees_with_differential_evolution(case: str) -> None:
-    problem = load(case)
+    problem, known = load(case), load("ur5")
     for joint in problem.moving_joints:
+        if case == "ur5-corrected" and (problem.waypoints == known.waypoints)[:, joint].all():
+            continue  # the same joint as in ur5
         agrees(problem.joint(joint), optimum(case, joint))
 
 

@@ -531,9 +531,10 @@ def test_the_study_verifies_every_answer(
 ) -> None:
     monkeypatch.setattr("sys.argv", ["free_form_study", "--count", "2"])
     monkeypatch.setattr(free_form_study, "cases", lambda: iter([SR4C]))
+    monkeypatch.setattr(free_form_study, "extremes", lambda: iter(()))
     assert free_form_study.main() == 0
     shown = capsys.readouterr().out
-    assert "2 problems: 2 verified, 0 above stop and go" in shown
+    assert "2 problems: 2 verified, 0 above stop and go, 0 below their bound" in shown
 
 
 def test_a_rival_that_is_not_installed_is_named(

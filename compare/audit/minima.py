@@ -8,8 +8,9 @@ import numpy as np
 
 from formulations import FamilyBound, FamilyOptimum, Limits, Problem, family_bound
 from formulations.bounds.proof import Proof
+from formulations.exchange import shortest_segments
 from formulations.family_bound import PROVERS
-from formulations.family_optimum import polished, shortest_segments
+from formulations.family_optimum import polished
 from formulations.problem import Array
 
 _GAP, _SECONDS = 1e-5, 4.0  # asked of a certified optimum

@@ -1,0 +1,127 @@
+"""What a certificate claims, read from a file that nobody vouches for."""
+
+from __future__ import annotations
+
+from math import isfinite
+from typing import Any
+
+from compare.check_certificate.answers import BadInput, need
+from compare.check_certificate.balls import R, least, most
+
+FORMAT = "timebound certificate 1"
+MOST_EVENTS, MOST_SEGMENTS, MOST_JOINTS = 3_000_000, 50, 50
+
+
+def number(text: Any) -> Any:
+    """The number that the hexadecimal text of a finite float stands for, exactly."""
+    if not isinstance(text, str) or len(text) > 40:
+        raise BadInput(f"expected a hexadecimal float, got {text!r:.40}")
+    try:
+        value = float.fromhex(text)
+    except (ValueError, OverflowError):
+        raise BadInput(f"not a hexadecimal float: {text!r:.40}") from None
+    if not isfinite(value):
+        raise BadInput(f"not finite: {text!r:.40}")
+    return R(value)
+
+
+def index(value: Any, below: int) -> int:
+    """An integer in 0 .. below - 1."""
+    if type(value) is not int or not 0 <= value < below:
+        raise BadInput(f"expected an integer from 0 to {below - 1}, got {value!r:.40}")
+    return value
+
+
+def items(value: Any, least: int, most: int) -> list[Any]:
+    """A list of bounded length."""
+    if not isinstance(value, list) or not least <= len(value) <= most:
+        raise BadInput(f"expected a list of {least} to {most} entries, got {value!r:.40}")
+    return value
+
+
+class Claim:
+    """What a certificate claims: data as exact numbers, None for no limit."""
+
+    def __init__(self, data: Any) -> None:
+        if not isinstance(data, dict) or data.get("format") != FORMAT:
+            raise BadInput(f"not a certificate: its format is not {FORMAT!r}")
+        self.family = str(data.get("family"))
+        rows = items(data.get("waypoints"), 2, MOST_SEGMENTS + 1)
+        self.dof = len(items(rows[0], 1, MOST_JOINTS))
+        self.w = [[number(x) for x in items(row, self.dof, self.dof)] for row in rows]
+        self.n = len(rows) - 1
+        limits = data.get("limits")
+        if not isinstance(limits, dict):
+            raise BadInput("limits: missing")
+        keys = ("velocity", "acceleration", "jerk")
+        self.limits = [
+            [None if x is None else number(x) for x in items(limits.get(key), self.dof, self.dof)]
+            for key in keys
+        ]
+        need(all(x is None or x > 0 for row in self.limits for x in row), "a limit is not positive")
+        self.position = [
+            [None if x is None else number(x) for x in items(pair, 2, 2)]
+            for pair in items(limits.get("position"), self.dof, self.dof)
+        ]
+        self.slack, self.L = number(data.get("position_slack")), number(data.get("seconds"))
+        need(self.slack >= 0, "position_slack is negative")
+        need(self.L > 0, "the bound is not positive")
+        self.short = data.get("short")
+        self.events = items(data.get("events"), 0, MOST_EVENTS)
+        self.d = [
+            [b - a for a, b in zip(*pair, strict=True)]
+            for pair in zip(self.w, self.w[1:], strict=False)
+        ]
+        self.moving = [j for j in range(self.dof) if not all(row[j] == 0 for row in self.d)]
+        need(self.moving, "nothing moves: any motion is as fast as it likes")
+        # a thousandth more, as the prover proves it too
+        self.slack *= R(1001) / 1000
+
+    def limit(self, order: int, j: int) -> Any:
+        """A limit that a row may pose."""
+        value = self.limits[order - 1][j]
+        need(value is not None, f"a row poses a limit that joint {j + 1} does not have")
+        return value
+
+    def room(self, k: int, j: int, sign: int) -> Any:
+        """From waypoint k to the position limit above (sign 1) or below (-1), as widened."""
+        bound: Any = self.position[j][sign > 0]
+        need(bound is not None, f"a row poses a limit that joint {j + 1} does not have")
+        far = most(sign * bound, *(sign * row[j] for row in self.w))
+        return far - sign * self.w[k][j] + self.slack
+
+    def speed(self, j: int) -> Any:
+        """Largest speed from rest to rest in L; None without any limit."""
+        velocity, acceleration, jerk = (row[j] for row in self.limits)
+        if jerk is not None:
+            rising = jerk * self.L / 2
+            acceleration = rising if acceleration is None else least(acceleration, rising)
+        if acceleration is not None:
+            rising = acceleration * self.L / 2
+            velocity = rising if velocity is None else least(velocity, rising)
+        return velocity
+
+    def shortest(self) -> list[Any]:
+        """Lower bounds of the durations: displacement over speed."""
+        speeds = {j: self.speed(j) for j in self.moving}
+        need(all(speed is not None for speed in speeds.values()), "a moving joint has no limit")
+        return [most(*(abs(row[j]) / speeds[j] for j in self.moving)) for row in self.d]
+
+    def row(self, raw: Any) -> tuple[Any, ...]:
+        """A row: kind, multiplier > 0, then joint, segment, sign, order, place for pieces and jumps."""
+        raw = items(raw, 2, 7)
+        kind, multiplier = raw[0], number(raw[-1])
+        need(multiplier > 0, "a multiplier is not positive")
+        if kind in ("t", "f", "l") and len(raw) == 2:
+            return kind, multiplier
+        if (kind, len(raw)) not in (("p", 7), ("j", 5)):
+            raise BadInput(f"unknown row {raw!r:.60}")
+        j, k, sign = index(raw[1], self.dof), index(raw[2], self.n), raw[-2]
+        if type(sign) is not int or sign not in (-1, 1):
+            raise BadInput(f"a sign is {sign!r:.40}")
+        need(j in self.moving, f"a row is about joint {j + 1}, which does not move")
+        if kind == "j":
+            return kind, multiplier, j, k, sign
+        place = number(raw[4])
+        need(0 <= place <= 1, "a row is posed outside its piece")
+        return kind, multiplier, j, k, sign, index(raw[3], 4), place

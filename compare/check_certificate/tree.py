@@ -1,0 +1,95 @@
+"""A search tree, replayed event by event."""
+
+from __future__ import annotations
+
+from typing import Any
+
+from compare.check_certificate.answers import BadInput, Refused, need
+from compare.check_certificate.balls import least, most
+from compare.check_certificate.claim import MOST_SEGMENTS, Claim, index, items, number
+
+
+class Node:
+    """A box of the tree: ends [lo, hi] per variable (hi None: no end), what else is known there."""
+
+    def __init__(self, box: list[list[Any]], known: Any = None, empty: bool = False) -> None:
+        self.box, self.known, self.empty = [list(ends) for ends in box], known, empty
+        self.reference: Any = None
+        self.form: tuple[Any, Any] = (None, None)
+
+    def half(self, k: int, end: int, value: Any) -> Node:
+        """The same box with one end moved."""
+        child = Node(self.box, self.known, self.empty)
+        child.box[k][end] = value
+        return child
+
+
+class Tree:
+    """Replays events; a family adds its domain, its excess and what a turn does."""
+
+    claim: Claim
+    root: Node
+
+    def excess(self, rows: Any, node: Node, box: list[list[Any]]) -> Any:
+        """A lower bound of the weighted sum of conditions over a box within the node's."""
+        raise NotImplementedError
+
+    def turn(self, node: Node) -> None:
+        """Narrow a node by what follows from its box."""
+        raise Refused("an event this family does not have")
+
+    def replay(self) -> int:
+        """Verify every event; returns the number of discards."""
+        stack, discards, rows = [self.root], 0, None
+        node: Node | None = None
+        for count, raw in enumerate(self.claim.events, 1):
+            event = items(raw, 1, 4)
+            letter, where = str(event[0]), f"event {count}"
+            if node is None:
+                need(stack, f"{where}: every box has ended")
+                node = stack.pop()
+            has_rows = len(event) == {"L": 2, "B": 4, "A": 4}.get(letter, 0)
+            if has_rows:
+                rows = [self.claim.row(row) for row in items(event[-1], 0, MOST_SEGMENTS + 1)]
+            if letter in ("B", "A", "S"):
+                items(event, 3, 4)
+                k, value = index(event[1], len(node.box)), number(event[2])
+                lo, hi = node.box[k]
+            if letter == "T":
+                if not node.empty:
+                    self.turn(node)
+            elif letter == "E":
+                need(node.empty, f"{where}: something is left of the box")
+                node = None
+            elif letter == "L":
+                need(
+                    node.empty or self.excess(rows, node, node.box) > 0,
+                    f"{where}: the box is not discarded",
+                )
+                discards += 1
+                node = None
+            elif letter in ("B", "A"):
+                if node.empty:
+                    continue
+                need(hi is not None, f"{where}: the box has no such end")
+                slab = [value, hi] if letter == "B" else [lo, value]
+                slab = [most(slab[0], lo), least(slab[1], hi)]
+                if not slab[0] > slab[1]:
+                    box = [slab if i == k else ends for i, ends in enumerate(node.box)]
+                    need(self.excess(rows, node, box) > 0, f"{where}: the slab is not discarded")
+                    discards += 1
+                    # the closed slab is gone
+                    node.empty = bool(value <= lo if letter == "B" else value >= hi)
+                    node.box[k] = [lo, slab[0]] if letter == "B" else [slab[1], hi]
+            elif letter == "S":
+                if not node.empty:
+                    need(
+                        lo < value and (hi is None or value < hi),
+                        f"{where}: the split is outside the box",
+                    )
+                stack += [node.half(k, 1, value), node.half(k, 0, value)]
+                node = None
+            else:
+                raise BadInput(f"{where}: unknown event {letter!r:.20}")
+        need(node is None and not stack, "the events end before every box has ended")
+        return discards

@@ -1,0 +1,33 @@
+"""What a certificate proves, in words."""
+
+from __future__ import annotations
+
+from typing import Any
+
+from compare.check_certificate.answers import BadInput
+from compare.check_certificate.claim import Claim
+from compare.check_certificate.every_motion import EveryMotion
+from compare.check_certificate.four_three_four import FourThreeFour
+from compare.check_certificate.quintic import Quintic
+from compare.check_certificate.three_five_three import ThreeFiveThree
+
+
+def verify(data: Any) -> str:
+    """What a certificate proves, in words. Raises Refused or BadInput."""
+    claim = Claim(data)
+    trees: dict[str, Any] = {
+        "3-5-3": ThreeFiveThree,
+        "4-3-4": FourThreeFour,
+        "quintic": Quintic,
+        "b-spline-3": EveryMotion,
+        "b-spline-5": EveryMotion,
+    }
+    if claim.family not in trees:
+        raise BadInput(f"family: {claim.family:.40} is not one of {', '.join(trees)}")
+    tree = trees[claim.family](claim)
+    discards = 0 if tree.void else tree.replay()
+    name = str(data.get("name"))[:60]
+    return (
+        f"no {claim.family} motion of {name!r} takes {float(claim.L):.12g} s or less "
+        f"({len(claim.events)} events, {discards} discards)"
+    )

@@ -1,0 +1,95 @@
+"""The chapter of one paper, from what is stored of its items alone: DIR/papers/KEY.html."""
+
+from __future__ import annotations
+
+import base64
+import io
+from collections.abc import Sequence
+from dataclasses import dataclass
+from pathlib import Path
+from typing import Any
+
+import jinja2
+import matplotlib as mpl
+import matplotlib.pyplot as plt
+from matplotlib.figure import Figure
+
+from compare import commands
+from compare.audit.paper_file import load_papers
+from compare.papers.item import Item, Table
+from compare.papers.shelf import FAILED, MISSING, OK, Made, kept
+from compare.style import STYLE
+
+MEANINGS = {
+    FAILED: "failed",
+    MISSING: "not made yet: python -m compare.papers makes it",
+    "died": "its process died",
+}
+
+
+@dataclass(frozen=True)
+class Entry:
+    """An item ready for the page. parts: tables, and pictures as data: URIs."""
+
+    item: Item
+    made: Made | None
+    status: str
+    note: str
+    parts: Sequence[Table | str]
+    remarks: Sequence[str]
+
+
+def render(folder: str, key: str, items: Sequence[Item]) -> tuple[str, dict[str, str]]:
+    """Write the chapter of a paper; its key, and by label what is wrong with an item."""
+    mpl.use("Agg")  # a worker has no screen
+    entries = [_entry(Path(folder), key, item) for item in items]
+    environment = jinja2.Environment(
+        loader=jinja2.PackageLoader("compare"),
+        autoescape=True,
+        trim_blocks=True,
+        lstrip_blocks=True,
+        undefined=jinja2.StrictUndefined,
+    )
+    paper = load_papers(key)[0]
+    made = [entry.made for entry in entries if entry.made is not None]
+    context: dict[str, Any] = {
+        "key": key,
+        "title": paper.title,
+        "source": " ".join(paper.source.split()),
+        "entries": entries,
+        "meanings": MEANINGS,
+        "ok": OK,
+        "is_table": lambda part: isinstance(part, Table),
+        "machines": sorted({m.machine for m in made}),
+        "versions": sorted({m.versions for m in made}),
+        "seconds": sum(m.seconds for m in made),
+        "report": (Path(folder) / "index.html").exists(),
+    }
+    path = Path(folder) / "papers" / f"{key}.html"
+    path.parent.mkdir(parents=True, exist_ok=True)
+    commands.write_text(path, environment.get_template("paper.html.j2").render(context))
+    return key, {e.item.label: f"{e.status}: {e.note}" for e in entries if e.status != OK}
+
+
+def _entry(folder: Path, key: str, item: Item) -> Entry:
+    made = kept(folder, key, item)
+    if made is None:
+        return Entry(item, None, MISSING, "", (), ())
+    if made.status != OK or made.data is None:
+        return Entry(item, made, made.status, made.note, (), ())
+    try:
+        with mpl.rc_context(STYLE):
+            shown = item.show(made.data)
+            parts = [_svg(part) if isinstance(part, Figure) else part for part in shown.parts]
+    except Exception as error:  # what one item stores must not cost the others their page
+        plt.close("all")
+        return Entry(item, made, FAILED, f"cannot be shown: {type(error).__name__}: {error}", (), ())
+    return Entry(item, made, OK, "", parts, shown.remarks)
+
+
+def _svg(figure: Figure) -> str:
+    """A picture as a data: URI; it is closed."""
+    text = io.BytesIO()
+    figure.savefig(text, format="svg", metadata={"Date": None})
+    plt.close(figure)
+    return "data:image/svg+xml;base64," + base64.b64encode(text.getvalue()).decode()

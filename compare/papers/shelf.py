@@ -1,0 +1,90 @@
+"""What is kept of an item: one JSON per item, written whole as soon as the item is made.
+
+DIR/papers/KEY/ITEM.json   full, status, note, seconds, versions, machine, data
+"""
+
+from __future__ import annotations
+
+import json
+import time
+import traceback
+from dataclasses import asdict, dataclass
+from pathlib import Path
+from typing import Any
+
+from compare import commands
+from compare.papers.item import Item
+from compare.run import machine, versions_text
+
+OK, FAILED, DIED, MISSING = "ok", "failed", "died", "not made"
+
+
+@dataclass(frozen=True)
+class Made:
+    """An item as it is stored. status: one of the above; note: why it is not ok; seconds: what it took;
+    data: what ``Item.make`` returned, None if it returned nothing.
+    """
+
+    full: bool
+    status: str
+    note: str
+    seconds: float
+    versions: str
+    machine: str
+    data: dict[str, Any] | None
+
+
+def make(folder: str, paper: str, item: Item, full: bool) -> tuple[str, Item, Made]:
+    """Make an item and store it; whatever it raises is its status, and no other item's concern."""
+    started = time.perf_counter()
+    status, note, data = OK, "", None
+    try:
+        data = item.make(full)
+        json.dumps(data, allow_nan=False)
+    except Exception as error:
+        status, data = FAILED, None
+        place = traceback.extract_tb(error.__traceback__)[-1]
+        note = f"{type(error).__name__}: {error} ({Path(place.filename).name}, line {place.lineno})"
+    seconds = time.perf_counter() - started
+    made = Made(full, status, " ".join(note.split()), seconds, versions_text(), machine(), data)
+    keep(Path(folder), paper, item, made)
+    return paper, item, made
+
+
+def died(folder: str, paper: str, item: Item, full: bool) -> Made:
+    """Store that an item took its process with it."""
+    note = "its process ended without an answer"
+    made = Made(full, DIED, note, 0.0, versions_text(), machine(), None)
+    keep(Path(folder), paper, item, made)
+    return made
+
+
+def keep(folder: Path, paper: str, item: Item, made: Made) -> None:
+    """Write one item."""
+    path = _path(folder, paper, item)
+    path.parent.mkdir(parents=True, exist_ok=True)
+    commands.write_json(path, {"label": item.label, **asdict(made)})
+
+
+def kept(folder: Path, paper: str, item: Item) -> Made | None:
+    """An item as it was stored; None if there is none, or none that can be read."""
+    try:
+        found = json.loads(_path(folder, paper, item).read_text("utf-8"))
+        return Made(**{name: found[name] for name in Made.__annotations__})
+    except (OSError, ValueError, KeyError, TypeError):
+        return None
+
+
+def finished(folder: Path, paper: str, item: Item, full: bool) -> bool:
+    """Whether an item is stored already, of this size and by these versions."""
+    made = kept(folder, paper, item)
+    return made is not None and (made.status, made.full, made.versions) == (OK, full, versions_text())
+
+
+def forget(folder: Path, paper: str, item: Item) -> None:
+    """Drop what is stored of an item."""
+    _path(folder, paper, item).unlink(missing_ok=True)
+
+
+def _path(folder: Path, paper: str, item: Item) -> Path:
+    return folder / "papers" / paper / f"{item.key}.json"
