@@ -29,19 +29,25 @@ from formulations.ladder import versions
 from metaheuristics import algorithm
 
 T = TypeVar("T")
+_THREADS = ("OMP_NUM_THREADS", "OPENBLAS_NUM_THREADS", "MKL_NUM_THREADS")
 
 
 @contextmanager
 def workers(jobs: int) -> Iterator[ProcessPoolExecutor]:
     """Worker processes, started afresh on every platform; an interrupt drops what waits."""
     pool = ProcessPoolExecutor(jobs, mp_context=multiprocessing.get_context("spawn"))
-    # workers inherit that they ignore an interrupt, which is this process's to handle
+    # workers inherit that they ignore an interrupt, which is this process's to handle, and that they
+    # are the threads: linear algebra with threads of its own would only wait for the others
     before = signal.signal(signal.SIGINT, signal.SIG_IGN)
+    unset = [name for name in _THREADS if name not in os.environ]
+    os.environ.update(dict.fromkeys(unset, "1"))
     try:
         for _ in range(jobs):
             pool.submit(os.getpid)
     finally:
         signal.signal(signal.SIGINT, before)
+        for name in unset:
+            del os.environ[name]
     try:
         yield pool
     except BaseException:

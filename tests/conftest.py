@@ -3,8 +3,13 @@
 from __future__ import annotations
 
 import functools
+import os
 import pickle
 from pathlib import Path
+
+# before numpy looks: the workers of a run are its threads
+for name in ("OMP_NUM_THREADS", "OPENBLAS_NUM_THREADS", "MKL_NUM_THREADS"):
+    os.environ.setdefault(name, "1")
 
 import numpy as np
 import pytest

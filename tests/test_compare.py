@@ -21,6 +21,7 @@ from hypothesis import strategies as st
 from compare import suite
 from compare.grade import Graded, Run, Trace, durations_of, grade
 from compare.objective import CODINGS, Objective, search_box
+from compare.run import workers
 from compare.statistics import convergence, summaries
 from compare.store import COLUMNS, TIMES, Store, key_of
 from formulations import (
@@ -283,6 +284,15 @@ def report(tmp_path_factory: pytest.TempPathFactory) -> Path:
 
 def comparable(folder: Path) -> list[dict[str, object]]:
     return [{k: v for k, v in row.items() if k not in TIMES} for row in Store(folder).rows()]
+
+
+def test_workers_are_the_only_threads(monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.delenv("OMP_NUM_THREADS", raising=False)
+    monkeypatch.setenv("OPENBLAS_NUM_THREADS", "3")  # somebody's own choice
+    with workers(1) as pool:
+        found = list(pool.map(os.getenv, ("OMP_NUM_THREADS", "OPENBLAS_NUM_THREADS")))
+    assert found == ["1", "3"]
+    assert "OMP_NUM_THREADS" not in os.environ
 
 
 def test_one_worker_and_two_write_the_same_rows(report: Path, tmp_path: Path) -> None:
