@@ -6,6 +6,7 @@ import sys
 from dataclasses import asdict
 from math import isfinite
 from pathlib import Path
+from typing import Any
 
 from compare import commands
 from formulations import InputError, Ladder, ladder, load
@@ -32,6 +33,9 @@ def main() -> int:
         help="write the proof of family_lower, for python -m compare.check_certificate",
     )
     parser.add_argument(
+        "--motion-certificate", metavar="FILE", help="the same of free_form_lower: of every motion"
+    )
+    parser.add_argument(
         "--gap", type=float, default=1e-3, help="aimed at between free_form and free_form_lower"
     )
     parser.add_argument(
@@ -55,7 +59,7 @@ def main() -> int:
     answer = ladder(
         problem,
         seed=options.seed,
-        certificate=bool(options.certificate),
+        certificate=bool(options.certificate or options.motion_certificate),
         gap=options.gap,
         progress=progress,
     )
@@ -76,9 +80,16 @@ def main() -> int:
         commands.write_json(Path(options.json), {**answer.to_json(), "diagnosis": diagnosis})
     if options.export:
         _export(options.export, answer, options.rate)
-    if options.certificate:
-        return _write_certificate(options.certificate, answer)
-    return commands.DONE
+    wanted = {
+        "family_lower": (options.certificate, answer.bound),
+        "free_form_lower": (options.motion_certificate, answer.free_form_bound),
+    }
+    written = [
+        _write_certificate(path, key, None if bound is None else bound.certificate, answer)
+        for key, (path, bound) in wanted.items()
+        if path
+    ]
+    return commands.DONE if all(written) else commands.FAILED
 
 
 def _export(path: str, answer: Ladder, rate: float | None) -> None:
@@ -92,16 +103,15 @@ def _export(path: str, answer: Ladder, rate: float | None) -> None:
     print(f"\n{path}: {key}, {verified[key]:.9g} s")
 
 
-def _write_certificate(path: str, answer: Ladder) -> int:
-    """Write the proof of family_lower, or say why there is none."""
-    certificate = answer.bound.certificate if answer.bound else None
+def _write_certificate(path: str, key: str, certificate: dict[str, Any] | None, answer: Ladder) -> bool:
+    """Write the proof of a rung, or say why there is none."""
     if certificate is None:
-        reason = answer.rungs["family_lower"].note or "nothing was proved beyond the displacements"
-        print(f"--certificate: none was written: {reason}", file=sys.stderr)
-        return commands.FAILED
+        reason = answer.rungs[key].note or "nothing was proved beyond the displacements"
+        print(f"{key}: no certificate was written: {reason}", file=sys.stderr)
+        return False
     write_certificate(path, certificate)
-    print(f"\n{path}: proof of {float.fromhex(certificate['seconds']):.9g} s")
-    return commands.DONE
+    print(f"\n{path}: proof of {float.fromhex(certificate['seconds']):.9g} s, {key}")
+    return True
 
 
 def as_text(answer: Ladder) -> str:

@@ -21,9 +21,11 @@ from __future__ import annotations
 import time
 from collections.abc import Callable
 from dataclasses import dataclass, field
+from typing import Any
 
 import numpy as np
 
+from formulations.bounds.certificate import certificate_of
 from formulations.errors import InputError
 from formulations.problem import Array, Problem
 from formulations.relaxation.search import Search
@@ -41,6 +43,7 @@ class FreeFormBound:
     joint's velocity, acceleration, jerk limit in a segment, to first order; None without a relaxation.
     status: "proved" (the gap asked for), "tight as it gets" (narrower boxes would prove no more), "time
     limit", "simple bounds only: reason" or "HiGHS ended with reason". rows: of the last program.
+    certificate: plain data for ``bounds.certificate.write_certificate``.
     """
 
     problem: Problem
@@ -54,6 +57,7 @@ class FreeFormBound:
     motion: Trajectory | None = field(default=None, repr=False)
     durations: Array | None = field(default=None, repr=False)
     savings: Array | None = field(default=None, repr=False)
+    certificate: dict[str, Any] | None = field(default=None, repr=False)
 
     @property
     def gap(self) -> float | None:
@@ -79,12 +83,14 @@ def free_form_bound(
     gap: float = 1e-3,
     upper: float | None = None,
     time_limit: float = 60.0,
+    record: bool = False,
     progress: Callable[[float, float | None], None] | None = None,
 ) -> FreeFormBound:
     """Prove a lower bound on the total time of all motions through the waypoints.
 
     gap: relative gap to be content with. upper: total [s] of a verified motion, if one is known; the
-    bound is valid whatever is given. time_limit: s, apart from the first program. progress(seconds,
+    bound is valid whatever is given. time_limit: s, apart from the first program. record: keep the
+    certificate, which proves a little less where narrow boxes were needed. progress(seconds,
     upper): called as the bound grows. Raises InputError for a gap or a time that is none.
     """
     started = time.perf_counter()
@@ -96,6 +102,10 @@ def free_form_bound(
         raise InputError(f"time_limit: {time_limit!r} s is not a time")
     search = Search(problem, upper, progress)
     status = search.run(gap, started + time_limit)
+    certificate = None
+    if record and problem.moving_joints:
+        seconds, horizon, events = search.recorded(started + 2.0 * time_limit)
+        certificate = certificate_of(problem, seconds, events, horizon=horizon)
     method = max(search.bounds, key=lambda key: search.bounds[key])
     return FreeFormBound(
         problem,
@@ -109,4 +119,5 @@ def free_form_bound(
         search.motion,
         search.durations,
         search.savings,
+        certificate,
     )

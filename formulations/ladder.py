@@ -22,7 +22,7 @@ from formulations.family_optimum import (
     longest_segment,
 )
 from formulations.free_form import FreeForm, free_form
-from formulations.free_form_bound import free_form_bound
+from formulations.free_form_bound import FreeFormBound, free_form_bound
 from formulations.problem import Array, Problem
 from formulations.references import REFERENCES, Outcome, copp_on, toppra_on
 from formulations.trajectory import Trajectory, check
@@ -71,6 +71,7 @@ class Ladder:
     alone: tuple[FamilyOptimum | None, ...] = field(repr=False)
     bound: FamilyBound | None = field(default=None, repr=False)
     free_form: FreeForm | None = field(default=None, repr=False)
+    free_form_bound: FreeFormBound | None = field(default=None, repr=False)
 
     def seconds(self, key: str) -> float | None:
         """The number of a rung [s], None where there is none."""
@@ -107,7 +108,8 @@ def ladder(
 ) -> Ladder:
     """Climb every rung; a method that cannot be used or fails is a status with its reason.
 
-    certify: prove ``family_lower``. certificate: keep that proof in ``bound.certificate``. gap:
+    certify: prove ``family_lower``. certificate: keep the proofs in ``bound.certificate``
+    and ``free_form_bound.certificate``. gap:
     relative gap aimed at between ``free_form`` and ``free_form_lower``.
     """
     climb = _Climb(problem, seed, certificate, gap, progress or (lambda key: None))
@@ -132,6 +134,7 @@ class _Climb:
         self.alone: tuple[FamilyOptimum | None, ...] = ()
         self.bound: FamilyBound | None = None
         self.free_form: FreeForm | None = None
+        self.free_form_bound: FreeFormBound | None = None
 
     def run(self, certify: bool) -> Ladder:
         for key in ("displacement", "ruckig_end_to_end", "ruckig_stop_and_go"):
@@ -154,6 +157,7 @@ class _Climb:
             self.alone,
             self.bound,
             self.free_form,
+            self.free_form_bound,
         )
 
     def _add(self, key: str, method: Callable[[], Outcome]) -> None:
@@ -180,8 +184,13 @@ class _Climb:
         if not self.problem.moving_joints:
             return Outcome.ok(0.0, note="nothing moves")
         found = free_form_bound(
-            self.problem, gap=self.gap, upper=self.rungs["free_form"].seconds, time_limit=_TIME_LIMIT
+            self.problem,
+            gap=self.gap,
+            upper=self.rungs["free_form"].seconds,
+            time_limit=_TIME_LIMIT,
+            record=self.certificate,
         )
+        self.free_form_bound = found
         note = f"by {found.method}"
         if found.gap is not None:
             note += f", gap {found.gap:.2g}"

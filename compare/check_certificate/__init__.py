@@ -9,4 +9,6 @@ limits, it is enough that none takes exactly L = seconds.
 The domain of a search is derived here from problem and L. Its events are replayed in depth-first
 order, every discard is verified: multipliers >= 0 of necessary conditions g <= 0 whose weighted sum is
 positive on all of a box (or of a slab of it) leave no motion there. Every box of the tree must end so.
+
+A bound of every motion, whatever its family, is one such sum, of rows that ``relaxation`` builds anew.
 """

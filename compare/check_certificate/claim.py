@@ -66,7 +66,7 @@ class Claim:
         self.slack, self.L = number(data.get("position_slack")), number(data.get("seconds"))
         need(self.slack >= 0, "position_slack is negative")
         need(self.L > 0, "the bound is not positive")
-        self.short = data.get("short")
+        self.short, self.horizon = data.get("short"), data.get("horizon")
         self.events = items(data.get("events"), 0, MOST_EVENTS)
         self.d = [
             [b - a for a, b in zip(*pair, strict=True)]

@@ -9,6 +9,7 @@ from compare.check_certificate.claim import Claim
 from compare.check_certificate.every_motion import EveryMotion
 from compare.check_certificate.four_three_four import FourThreeFour
 from compare.check_certificate.quintic import Quintic
+from compare.check_certificate.relaxation import Relaxation
 from compare.check_certificate.three_five_three import ThreeFiveThree
 
 
@@ -21,13 +22,14 @@ def verify(data: Any) -> str:
         "quintic": Quintic,
         "b-spline-3": EveryMotion,
         "b-spline-5": EveryMotion,
+        "every-motion": Relaxation,
     }
     if claim.family not in trees:
         raise BadInput(f"family: {claim.family:.40} is not one of {', '.join(trees)}")
     tree = trees[claim.family](claim)
     discards = 0 if tree.void else tree.replay()
-    name = str(data.get("name"))[:60]
+    kind = "motion" if claim.family == "every-motion" else f"{claim.family} motion"
     return (
-        f"no {claim.family} motion of {name!r} takes {float(claim.L):.12g} s or less "
-        f"({len(claim.events)} events, {discards} discards)"
+        f"no {kind} of {str(data.get('name'))[:60]!r} takes {float(claim.L):.12g} s or less "
+        f"({len(claim.events)} events, {discards} {'rows' if claim.family == 'every-motion' else 'discards'})"
     )

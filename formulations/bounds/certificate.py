@@ -5,6 +5,8 @@ lost.
     short      null, or for a middle segment of 3-5-3 on which nothing moves: tau, and what discards
                T2 <= tau, from the longest T1 down: ["p", lo, hi, joint, order, place, sign] a limit
                inside it, ["l", lo, hi] the last segment, for T1 in [lo, hi]
+    horizon    null, or for every motion, whatever its family ("every-motion"): H [s], and events as
+               ``relaxation.record`` has them
     events     in depth-first order (see ``log``), the first letter says which:
                ["T"] ["E"] ["S", k, value] ["L", rows] ["B", k, value, rows] ["A", k, value, rows]
                without rows: those of the event before
@@ -53,12 +55,16 @@ def certificate_of(
     seconds: float,
     events: list[list[Any]] | None = None,
     short: dict[str, Any] | None = None,
+    horizon: float | None = None,
 ) -> dict[str, Any]:
-    """The certificate of a bound [s]; without events, that of displacement over speed."""
+    """The certificate of a bound [s]; without events, that of displacement over speed.
+
+    horizon: H [s], if it is a bound of every motion (``relaxation.record``), not of the family alone.
+    """
     limits = problem.limits
     return {
         "format": FORMAT,
-        "family": problem.family,
+        "family": problem.family if horizon is None else "every-motion",
         "name": problem.name,
         "waypoints": _hex(problem.waypoints),
         "limits": {
@@ -70,6 +76,7 @@ def certificate_of(
         "position_slack": problem.position_slack.hex(),
         "seconds": seconds.hex(),
         "short": short,
+        "horizon": None if horizon is None else horizon.hex(),
         "events": events or [],
     }
 

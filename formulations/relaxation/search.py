@@ -9,6 +9,7 @@ from __future__ import annotations
 
 import time
 from collections.abc import Callable
+from typing import Any
 
 import numpy as np
 
@@ -24,6 +25,7 @@ from formulations.relaxation.descent import descended
 from formulations.relaxation.motion import motion_through
 from formulations.relaxation.prices import savings
 from formulations.relaxation.program import Program, Solution
+from formulations.relaxation.record import recorded
 from formulations.relaxation.rows import Frame
 from formulations.relaxation.states import states_at
 from formulations.relaxation.task import Task
@@ -37,6 +39,7 @@ _ROUNDS = 100  # of cuts
 _TANGENTS = 4  # for each duration to start with
 _LOOSER = 1e-2  # durations to start with: the rows, not the box, are to carry the bound and its prices
 _STRETCHES = (2e-7, 1e-6, 1e-5, 1e-4, 1e-3, 1e-2)  # of durations, tried for a motion
+_NEAR = 1e-2  # of the bound: how far above it the horizon of its certificate is at most
 _STALLED = 0.05  # of the way to the horizon: less than that in one step is no progress
 
 
@@ -166,6 +169,21 @@ class Search:
         durations[:, 1] = np.minimum(durations[:, 1], task.horizon * (1.0 + 1e-12) - others)
         empty = bool((durations[:, 0] > durations[:, 1]).any())
         return Boxes(durations, np.clip(accelerations, -most, most), empty)
+
+    def recorded(self, deadline: float) -> tuple[float, float, list[list[Any]]]:
+        """A bound near the best one [s], the horizon of its proof [s] and its events."""
+        least = self.bounds["displacement"] * (1.0 - 1e-12)
+        horizon = min(self.known * (1.0 + _BEYOND), self.seconds * (1.0 + _NEAR))
+        if not len(Task.of(self.problem, horizon).joints) or not self.seconds > least * (1.0 + 1e-9):
+            return least, least, []
+        with np.errstate(over="ignore", divide="ignore", invalid="ignore"):
+            bound, events = recorded(
+                self.problem, horizon, self.seconds * (1.0 - 1e-8), self.cuts, self.typical, deadline
+            )
+        if not bound > least:
+            return least, least, []
+        self._improve(bound)  # what a near horizon gains
+        return bound, horizon, events
 
     def _met(self, gap: float) -> bool:
         return self.upper is not None and self.upper <= self.seconds * (1.0 + gap)

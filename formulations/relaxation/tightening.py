@@ -8,6 +8,7 @@ rows (6), (8) and (9) lose by the square of the boxes' widths.
 from __future__ import annotations
 
 import time
+from collections.abc import Callable
 from dataclasses import dataclass
 
 import numpy as np
@@ -29,10 +30,16 @@ class Boxes:
     empty: bool
 
 
-def tightened(program: Program, solution: Solution, deadline: float) -> Boxes:
+def tightened(
+    program: Program,
+    solution: Solution,
+    deadline: float,
+    note: Callable[[int, int, Solution], None] | None = None,
+) -> Boxes:
     """Boxes that hold every motion the program's boxes do, as far as the time goes.
 
-    Durations all, accelerations where the products (9) carry the bound of ``solution``.
+    Durations all, accelerations where the products (9) carry the bound of ``solution``. note(column,
+    side, solution): told of every program that narrows a box.
     """
     frame = program.frame
     durations, accelerations = frame.durations.copy(), frame.accelerations.copy()
@@ -47,6 +54,8 @@ def tightened(program: Program, solution: Solution, deadline: float) -> Boxes:
             cost = np.zeros(frame.size)
             cost[column] = sign
             found = program.solve(cost, rounds=_ROUNDS, tolerance=_TOLERANCE, deadline=deadline)
+            if note is not None:
+                note(column, side, found)
             if found.empty:
                 return Boxes(durations, accelerations, True)
             bound = sign * found.bound * unit
