@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import copy
 import json
+import re
 from collections.abc import Callable
 from pathlib import Path
 from typing import Any
@@ -78,6 +79,17 @@ def test_bounds_with_a_jerk_limit_are_certified(problem: Problem, tmp_path: Path
     assert bound.certificate is not None
     assert bound.upper is not None
     assert bound.upper <= float.fromhex(bound.certificate["seconds"]) * (1.0 + 1e-5)
+
+
+def test_a_proof_is_shown_as_inequalities(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
+    """One joint, velocity and acceleration: the time is read off the lines."""
+    bound = recorded(task_of([[0.0], [2.0]], 1.0, 1.0))
+    assert outcome(tmp_path, bound.certificate, "--show") == CERTIFIED
+    first, *lines = capsys.readouterr().out.splitlines()
+    assert first.startswith("certified: no motion of 'problem' takes 2.99999999")
+    assert lines
+    assert all(re.fullmatch(r"  [\d.e+-]+ x \(.* <= .*\)  \[.*\]", line) for line in lines)
+    assert any("(1/T1)" in line and "distance" in line and "joint 1" in line for line in lines)
 
 
 def test_a_bound_that_needs_narrower_boxes_is_certified(tmp_path: Path) -> None:

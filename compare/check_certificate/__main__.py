@@ -71,6 +71,9 @@ def main(arguments: list[str] | None = None) -> int:
     )
     parser.add_argument("file", metavar="FILE", help="a certificate, from compare.solve --certificate")
     parser.add_argument("--problem", metavar="FILE_OR_CASE", help="the problem it must be about")
+    parser.add_argument(
+        "--show", action="store_true", help="the inequalities that prove a bound of every motion"
+    )
     options = parser.parse_args(arguments)
     try:
         import flint  # noqa: F401
@@ -81,7 +84,7 @@ def main(arguments: list[str] | None = None) -> int:
 
     try:
         data = read(Path(options.file))
-        words = verify(data)
+        words = verify(data, show=options.show)
         if options.problem:
             compare_with(data, options.problem)
     except Refused as reason:

@@ -11,10 +11,14 @@ from compare.check_certificate.four_three_four import FourThreeFour
 from compare.check_certificate.quintic import Quintic
 from compare.check_certificate.relaxation import Relaxation
 from compare.check_certificate.three_five_three import ThreeFiveThree
+from compare.check_certificate.words import proof_in_words
 
 
-def verify(data: Any) -> str:
-    """What a certificate proves, in words. Raises Refused or BadInput."""
+def verify(data: Any, *, show: bool = False) -> str:
+    """What a certificate proves, in words; show: its last sum too, if it is one of inequalities.
+
+    Raises Refused or BadInput.
+    """
     claim = Claim(data)
     trees: dict[str, Any] = {
         "3-5-3": ThreeFiveThree,
@@ -28,8 +32,10 @@ def verify(data: Any) -> str:
         raise BadInput(f"family: {claim.family:.40} is not one of {', '.join(trees)}")
     tree = trees[claim.family](claim)
     discards = 0 if tree.void else tree.replay()
-    kind = "motion" if claim.family == "every-motion" else f"{claim.family} motion"
-    return (
-        f"no {kind} of {str(data.get('name'))[:60]!r} takes {float(claim.L):.12g} s or less "
-        f"({len(claim.events)} events, {discards} {'rows' if claim.family == 'every-motion' else 'discards'})"
+    every = isinstance(tree, Relaxation)
+    words = (
+        f"no {'motion' if every else f'{claim.family} motion'} of {str(data.get('name'))[:60]!r} "
+        f"takes {float(claim.L):.12g} s or less "
+        f"({len(claim.events)} events, {discards} {'rows' if every else 'discards'})"
     )
+    return "\n".join([words, *proof_in_words(tree)]) if show and every else words

@@ -1,0 +1,56 @@
+"""A proof for people: the inequalities that add up to it, each with its multiplier.
+
+Segments, joints and waypoints count from 1. T2 is the duration of segment 2; v5(2) and a5(2) are the
+velocity and the acceleration of joint 5 at waypoint 2.
+"""
+
+from __future__ import annotations
+
+from typing import Any
+
+from compare.check_certificate.balls import R
+from compare.check_certificate.claim import number
+from compare.check_certificate.relaxation import Relaxation, Row, Variable
+
+KINDS = {
+    "h": "the time assumed",
+    "s": "1/T between its bounds",
+    "t": "1/T is convex",
+    "c": "T^2 beside T and 1/T",
+    "w": "T a between bounds",
+    "v": "speed while the acceleration fades",
+    "a": "speed that can be gained",
+    "r": "room to stop",
+    "d": "distance, with a piece at top speed",
+    "k": "distance",
+}
+
+
+def proof_in_words(checker: Relaxation) -> list[str]:
+    """A line per inequality of the last sum; SI units."""
+    rows: list[list[Any]] = checker.claim.events[-1][-1] if checker.claim.events else []
+    lines = []
+    for raw in rows:
+        of = KINDS[str(raw[0])]
+        if str(raw[0]) in "wvardk":
+            of += f", joint {raw[1] + 1}"
+        lines.append(f"  {float(number(raw[-1])):.6g} x ({inequality(checker.row(raw))})  [{of}]")
+    return lines
+
+
+def inequality(row: Row) -> str:
+    """Terms that are not zero, and the right hand side."""
+    terms = [(float(x), name(key)) for key, x in row[0].items() if not bool(x == R(0))]
+    text = " ".join(f"{'-' if x < 0 else '+'} {abs(x):.6g} {what}" for x, what in terms)
+    return f"{text.removeprefix('+ ')} <= {float(row[1]):.6g}"
+
+
+def name(key: Variable) -> str:
+    """A variable as a reader knows it."""
+    kind, k = key[0], key[1] + 1
+    if kind in ("T", "u", "q"):
+        return {"T": f"T{k}", "u": f"(1/T{k})", "q": f"T{k}^2"}[kind]
+    j: Any = key[2] + 1
+    if kind == "W":
+        return f"T{k} a{j}({k + key[3]})"
+    return f"{kind}{j}({k})"
