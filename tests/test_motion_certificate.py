@@ -92,6 +92,12 @@ def test_a_proof_is_shown_as_inequalities(tmp_path: Path, capsys: pytest.Capture
     assert any("(1/T1)" in line and "distance" in line and "joint 1" in line for line in lines)
 
 
+def test_what_follows_a_proof_is_not_shown(ur5: dict[str, Any], tmp_path: Path) -> None:
+    certificate = copy.deepcopy(ur5)
+    certificate["events"].append(["?"])
+    assert outcome(tmp_path, certificate, "--show") == CERTIFIED
+
+
 def test_a_bound_that_needs_narrower_boxes_is_certified(tmp_path: Path) -> None:
     """Jerk alone matters: one program proves little."""
     bound = recorded(task_of([[0.0], [0.7], [0.9], [0.1]], 1e6, 1e6, 1.0), gap=1e-6, time_limit=4.0)
@@ -284,6 +290,10 @@ FAULTS: dict[str, tuple[int, Callable[[dict[str, Any]], object]]] = {
     "no sign": (BAD_INPUT, lambda c: longest_row(c).__setitem__(3, 0)),
     "no such joint": (BAD_INPUT, lambda c: longest_row(c).__setitem__(1, 6)),
     "no such row": (BAD_INPUT, lambda c: longest_row(c).__setitem__(0, "z")),
+    "a row without a name": (
+        BAD_INPUT,
+        lambda c: last_rows(c).append(["", 0, (1.0).hex(), (1.0).hex()]),
+    ),
     "a short row": (BAD_INPUT, lambda c: longest_row(c).pop(4)),
     "no horizon": (BAD_INPUT, lambda c: c.pop("horizon")),
     "no such event": (BAD_INPUT, lambda c: c["events"][-1].__setitem__(0, "Q")),

@@ -25,6 +25,7 @@ from compare.check_certificate.balls import R, least, most
 from compare.check_certificate.claim import Claim, index, items, number
 
 MOST_ROWS = 1_000_000
+WIDTHS = {"h": 2, "s": 3, "t": 4, "c": 4, "w": 6, "v": 7, "a": 7, "r": 8, "d": 11, "k": 11}
 Variable = tuple[Any, ...]
 Row = tuple[dict[Variable, Any], Any]
 
@@ -32,7 +33,8 @@ Row = tuple[dict[Variable, Any], Any]
 class Relaxation:
     """Boxes of durations and accelerations, narrowed event by event; limits that every motion keeps.
 
-    From rest to rest in H, |v| <= min(V, A H / 2, J H^2 / 16), |a| <= min(A, sqrt(2 J V), J H / 4).
+    sum: rows of the last sum, which ends the proof. From rest to rest in H,
+    |v| <= min(V, A H / 2, J H^2 / 16), |a| <= min(A, sqrt(2 J V), J H / 4).
     """
 
     def __init__(self, claim: Claim) -> None:
@@ -51,6 +53,7 @@ class Relaxation:
         # a waypoint goes by the segment that it begins; at both ends the arm is at rest
         self.after = dict(zip(self.ks, [*self.ks[1:], self.ks[-1] + 1], strict=True))
         self.ends = (self.ks[0], self.ks[-1] + 1)
+        self.sum: list[Any] = []
         self.boxes: dict[Variable, tuple[Any, Any]] = {}
         for k, t in shortest.items():
             self.boxes["T", k] = (t.lower(), (self.H - (total - t)).upper())
@@ -94,6 +97,7 @@ class Relaxation:
                 continue
             rows = items(event[-1], 0, MOST_ROWS)
             count += len(rows)
+            self.sum = rows
             if letter == "N":
                 key, side = self.narrowed(event)
                 bound = self.least({key: R(-1 if side else 1)}, rows)
@@ -169,13 +173,12 @@ class Relaxation:
     def row(self, raw: list[Any]) -> Row:
         """Coefficients by variable, and the right hand side."""
         kind = str(raw[0])
-        if kind == "h" and len(raw) == 2:
-            return {("T", k): R(1) for k in self.ks}, self.H
-        if kind in "stc" and len(raw) == (3 if kind == "s" else 4):
-            return self.of_duration(kind, self.segment(raw[1]), raw)
-        widths = {"w": 6, "v": 7, "a": 7, "r": 8, "d": 11, "k": 11}
-        if widths.get(kind) != len(raw):
+        if WIDTHS.get(kind) != len(raw):
             raise BadInput(f"unknown row {raw!r:.60}")
+        if kind == "h":
+            return {("T", k): R(1) for k in self.ks}, self.H
+        if kind in ("s", "t", "c"):
+            return self.of_duration(kind, self.segment(raw[1]), raw)
         j, k = index(raw[1], self.claim.dof), self.segment(raw[2])
         need(j in self.J, f"a row is about joint {j + 1}, which has no box")
         if kind == "w":
@@ -238,7 +241,6 @@ class Relaxation:
         i = self.after[k] if end else k
         row = self.moving(j, k, s1 * s1 * s2 / 2 - s1**3 / 3, (s2 - s1) ** 2 / 2)
         towards = -sign if end else sign
-        # the waypoint itself, or the first of several alike
         row[("u", k)] = -self.claim.room(i, j, towards)
         p = s1 * s2 - s1 * s1 / 2
         return row | {("v", i, j): sign * s2, ("W", k, j, end): (-sign if end else sign) * p}, R(0)

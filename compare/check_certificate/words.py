@@ -28,9 +28,8 @@ KINDS = {
 
 def proof_in_words(checker: Relaxation) -> list[str]:
     """A line per inequality of the last sum; SI units."""
-    rows: list[list[Any]] = checker.claim.events[-1][-1] if checker.claim.events else []
     lines = []
-    for raw in rows:
+    for raw in checker.sum:
         of = KINDS[str(raw[0])]
         if str(raw[0]) in "wvardk":
             of += f", joint {raw[1] + 1}"

@@ -67,6 +67,11 @@ def listed(values: Sequence[object]) -> str:
     return " and ".join([", ".join(words[:-1]), words[-1]] if len(words) > 1 else words)
 
 
+def triple(numbers: Sequence[float], digits: int = 3) -> str:
+    """1.000, 2.000, 5.000."""
+    return ", ".join(f"{n:.{digits}f}" for n in numbers)
+
+
 def percent(share: float, digits: int = 1) -> str:
     """12.3 %."""
     return f"{100.0 * share:.{digits}f}\u00a0%"

@@ -17,13 +17,13 @@ from matplotlib.figure import Figure
 from compare import commands
 from compare.audit.paper_file import load_papers
 from compare.papers.item import Item, Table
-from compare.papers.shelf import FAILED, MISSING, OK, Made, kept
+from compare.papers.shelf import DIED, FAILED, MISSING, OK, Made, kept
 from compare.style import STYLE
 
 MEANINGS = {
     FAILED: "failed",
     MISSING: "not made yet: python -m compare.papers makes it",
-    "died": "its process died",
+    DIED: "its process died",
 }
 
 

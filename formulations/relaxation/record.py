@@ -58,7 +58,7 @@ def recorded(
     is none.
     """
     task = Task.of(problem, horizon)
-    boxes = _root(problem, task)
+    boxes = _root(task)
     units = typical[task.segments]
     narrowing: list[list[Any]] = []
     best: tuple[float, list[list[Any]]] = (0.0, [])
@@ -87,11 +87,10 @@ def recorded(
     return best
 
 
-def _root(problem: Problem, task: Task) -> Boxes:
+def _root(task: Task) -> Boxes:
     """Displacement over top speed; what the others leave; accelerations within their limits."""
-    least = (np.abs(task.displacements) / task.velocity).max(axis=1)
-    given = np.abs(problem.displacements[task.segments]) / problem.limits.velocity
-    least = np.maximum(least, given.max(axis=1)) * DOWN
+    least = DOWN * (np.abs(task.displacements) / task.velocity).max(axis=1)
+    least = np.maximum(least, task.least)
     most = task.horizon * UP - (least.sum() - least)
     widest = np.broadcast_to(
         task.acceleration[:, None] * (-1.0, 1.0), (len(least) + 1, len(task.joints), 2)

@@ -28,7 +28,7 @@ from formulations.relaxation.program import Program, Solution
 from formulations.relaxation.record import recorded
 from formulations.relaxation.rows import Frame
 from formulations.relaxation.states import states_at
-from formulations.relaxation.task import DOWN, Task
+from formulations.relaxation.task import Task
 from formulations.relaxation.tightening import Boxes, tightened
 from formulations.trajectory import Trajectory, check
 
@@ -159,11 +159,7 @@ class Search:
         if boxes is None:
             at_most = (np.abs(task.displacements) / task.velocity).max(axis=1)
             least = np.maximum(least_durations(self.problem)[task.segments], at_most)
-            # of joints with a velocity limit alone no row speaks: the box is all they have
-            speechless = np.setdiff1d(self.problem.moving_joints, task.joints)
-            ways = np.abs(self.problem.displacements[np.ix_(task.segments, speechless)])
-            alone = (ways / self.problem.limits.velocity[speechless]).max(axis=1, initial=0.0)
-            least = np.maximum(least * (1.0 - _LOOSER), alone * DOWN)
+            least = np.maximum(least * (1.0 - _LOOSER), task.least)
             durations = np.stack([least, np.full_like(least, np.inf)], axis=1)
             accelerations = np.full((len(least) + 1, len(task.joints), 2), (-np.inf, np.inf))
         else:

@@ -20,12 +20,14 @@ class Task:
     asks less of it. A joint that never moves can stand still; one whose velocity alone is limited gives
     T >= |d| / V and no more.
 
-    displacements: (K, n) [rad], each rounded once. room: (K + 1, n, 2) [rad], from each waypoint down
+    least: (K,) [s], no duration is below it: what the joints left out ask for. displacements: (K, n)
+    [rad], each rounded once. room: (K + 1, n, 2) [rad], from each waypoint down
     and up to the position limits, infinite without one. velocity, acceleration, jerk: (n,), limits
     that every motion of at most ``horizon`` seconds keeps, jerk 0 where unlimited. segments (K,),
     joints (n,): their numbers in the problem.
     """
 
+    least: Array
     displacements: Array
     room: Array
     velocity: Array
@@ -58,10 +60,13 @@ class Task:
         V, A, J = limits.velocity[joints], limits.acceleration[joints], limits.jerk[joints]
         top = np.minimum(V, UP * np.minimum(A * horizon / 2.0, J * horizon**2 / 16.0))
         steepest = np.minimum(A, UP * np.minimum(np.sqrt(2.0 * J * V), J * horizon / 4.0))
+        others = np.flatnonzero(moves & ~limited)
+        ways = np.abs(problem.displacements[np.ix_(segments, others)])
         passed = np.append(segments, segments[-1:] + 1)
         x = problem.waypoints[np.ix_(passed, joints)][..., None]
         bounds = problem.position_bounds[joints]
         return Task(
+            least=DOWN * (ways / limits.velocity[others]).max(axis=1, initial=0.0),
             room=np.maximum((bounds - x) * (-1.0, 1.0), 0.0) + slack,
             displacements=problem.displacements[np.ix_(segments, joints)],
             velocity=top,

@@ -11,6 +11,7 @@ from compare.audit.paper_file import load_papers
 from compare.audit.printed import values
 from compare.papers.inverse import make_inverse
 from compare.papers.item import Item, Shown, Table
+from compare.papers.measure import triple
 from formulations.arms import load_arm
 
 
@@ -37,7 +38,7 @@ def show_angles(data: dict[str, Any]) -> Shown:
     places = Table(
         ["point", "Table 2 [mm]", "tool at the angles of Table 3 [mm]", "away [mm]", "branches"],
         [
-            [f"X{i}", _triple(data["table"][i]), _triple(data["tool"][i]), f"{1e3 * p['miss']:.3f}",
+            [f"X{i}", triple(data["table"][i]), triple(data["tool"][i]), f"{1e3 * p['miss']:.3f}",
              str(p["branches"])]
             for i, p in enumerate(points)
         ],
@@ -76,10 +77,6 @@ def show_angles(data: dict[str, Any]) -> Shown:
             "off: a misprint.",
         ],
     )
-
-
-def _triple(numbers: list[float]) -> str:
-    return ", ".join(f"{n:.3f}" for n in numbers)
 
 
 ITEMS: tuple[Item, ...] = (

@@ -10,6 +10,7 @@ from scipy.optimize import least_squares, minimize_scalar
 from compare.audit.paper_file import load_papers
 from compare.audit.printed import values
 from compare.papers.item import Item, Shown, Table
+from compare.papers.measure import triple
 from formulations import load
 from formulations.arms import distance_to, load_arm
 from formulations.arms.kinematics import error_of
@@ -81,7 +82,7 @@ def show_angles(data: dict[str, Any]) -> Shown:
     reach = Table(
         ["point", "printed [mm]", "tool at the printed angles [mm]", "away [mm]", "out of reach by [mm]"],
         [
-            [f"P{i + 1}", _triple(r["point"], 0), _triple(r["tool"], 1), f"{r['miss']:.1f}",
+            [f"P{i + 1}", triple(r["point"], 0), triple(r["tool"], 1), f"{r['miss']:.1f}",
              f"{r['out_of_reach']:.1f}"]
             for i, r in enumerate(data["rows"])
         ],
@@ -118,10 +119,6 @@ def show_angles(data: dict[str, Any]) -> Shown:
 
 def _angle(a: float) -> str:
     return f"{a:.4f}".replace("-0.0000", "0.0000")
-
-
-def _triple(numbers: list[float], digits: int) -> str:
-    return ", ".join(f"{n:.{digits}f}" for n in numbers)
 
 
 ITEMS: tuple[Item, ...] = (
