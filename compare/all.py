@@ -5,12 +5,14 @@ from __future__ import annotations
 import os
 import time
 
-from compare import bias, commands, proofs, suite
-from compare.honest import key_of_paper
-from compare.objective import CODINGS
-from compare.report import render
-from compare.run import audits, climb, honest, swarm, warm_up, workers
-from compare.store import Store
+from compare.benchmark import suite
+from compare.benchmark.honest import key_of_paper
+from compare.benchmark.objective import CODINGS
+from compare.benchmark.run import audits, climb, honest, swarm, warm_up, workers
+from compare.benchmark.store import Store
+from compare.commands import shared as commands
+from compare.report.page import render
+from compare.studies import bias, proofs
 from formulations import CASES, InputError, load
 from metaheuristics import ALGORITHMS
 

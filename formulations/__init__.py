@@ -2,23 +2,23 @@
 
 from __future__ import annotations
 
-from formulations.conditions import Conditions
-from formulations.errors import InputError, NoFeasibleMotion, UnsupportedProblem
 from formulations.families import FAMILIES
-from formulations.family_bound import FamilyBound, family_bound
-from formulations.family_optimum import (
+from formulations.motion.trajectory import Trajectory, Verdict, check
+from formulations.optima.family.optimum import (
     FamilyOptimum,
     each_joint_alone,
     family_optimum,
     longest_segment,
 )
-from formulations.free_form import FreeForm, Sensitivity, free_form
-from formulations.free_form_bound import FreeFormBound, free_form_bound
-from formulations.ladder import Ladder, ladder
-from formulations.problem import Limits, Problem
-from formulations.problem_file import CASES, load, parse
+from formulations.optima.free_form import FreeForm, Sensitivity, free_form
+from formulations.problem.conditions import Conditions
+from formulations.problem.errors import InputError, NoFeasibleMotion, UnsupportedProblem
+from formulations.problem.problem import Limits, Problem
+from formulations.problem.problem_file import CASES, load, parse
+from formulations.proofs.every_motion.bound import FreeFormBound, free_form_bound
+from formulations.proofs.family import FamilyBound, family_bound
 from formulations.references import REFERENCES
-from formulations.trajectory import Trajectory, Verdict, check
+from formulations.rungs import Ladder, ladder
 
 __all__ = [
     "CASES",

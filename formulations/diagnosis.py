@@ -12,9 +12,10 @@ from dataclasses import dataclass, replace
 
 import numpy as np
 
-from formulations.free_form import FreeForm, free_form
-from formulations.problem import Array, Limits, Problem
-from formulations.trajectory import QUANTITIES
+from formulations.motion.trajectory import QUANTITIES
+from formulations.optima.free_form import FreeForm, free_form
+from formulations.problem.arrays import Array
+from formulations.problem.problem import Limits, Problem
 
 _LEAST = 1e-3  # of the time: holds shorter than this are not worth a line
 

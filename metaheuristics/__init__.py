@@ -12,15 +12,15 @@ Conventions, for whatever a paper leaves open:
   that has seen nothing finite follows its first particle.
 """
 
-from metaheuristics.apart import apart
-from metaheuristics.archive import Result
 from metaheuristics.by_name import algorithm
+from metaheuristics.driver.apart import apart
+from metaheuristics.driver.archive import Result
+from metaheuristics.driver.minimise import minimise
+from metaheuristics.driver.plug_in import UnknownAlgorithmError
+from metaheuristics.driver.task import ObjectiveError, Status, Task, TaskError
 from metaheuristics.entry import GROUPS, Algorithm, NotReproducible
-from metaheuristics.minimise import minimise
-from metaheuristics.outside.library import MissingLibraryError
-from metaheuristics.plug_in import UnknownAlgorithmError
+from metaheuristics.libraries.library import MissingLibraryError
 from metaheuristics.registry import ALGORITHMS, NOT_REPRODUCIBLE
-from metaheuristics.task import ObjectiveError, Status, Task, TaskError
 
 __all__ = [
     "ALGORITHMS",

@@ -4,12 +4,12 @@ from __future__ import annotations
 
 from functools import partial
 
+from metaheuristics.driver.plug_in import UnknownAlgorithmError, plug_in
 from metaheuristics.entry import Algorithm, defaults
-from metaheuristics.outside import mealpy_, pymoo_
-from metaheuristics.outside.library import library
-from metaheuristics.outside.minion_ import minion
-from metaheuristics.outside.nevergrad_ import nevergrad
-from metaheuristics.plug_in import UnknownAlgorithmError, plug_in
+from metaheuristics.libraries import mealpy_, pymoo_
+from metaheuristics.libraries.library import library
+from metaheuristics.libraries.minion_ import minion
+from metaheuristics.libraries.nevergrad_ import nevergrad
 from metaheuristics.registry import ALGORITHMS, NOT_REPRODUCIBLE
 
 LIBRARIES = {

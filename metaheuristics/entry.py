@@ -7,7 +7,7 @@ from dataclasses import dataclass, field
 from importlib.metadata import PackageNotFoundError, version
 from typing import Any
 
-from metaheuristics.task import Search
+from metaheuristics.driver.task import Search
 
 GROUPS = {
     "pso": "PSO",

@@ -4,27 +4,27 @@ from __future__ import annotations
 
 from typing import Any
 
-from metaheuristics.butterfly import butterfly
+from metaheuristics.driver.task import Search
 from metaheuristics.entry import Algorithm, NotReproducible, defaults
-from metaheuristics.issa import issa
-from metaheuristics.mipso import mipso, mipso_printed
-from metaheuristics.mpso import mpso
-from metaheuristics.outside.cmaes_ import cma_es
-from metaheuristics.outside.minion_ import lshade
-from metaheuristics.outside.scipy_ import (
+from metaheuristics.libraries.cmaes_ import cma_es
+from metaheuristics.libraries.minion_ import lshade
+from metaheuristics.libraries.scipy_ import (
     differential_evolution,
     dual_annealing,
     nelder_mead,
     slsqp,
     sobol,
 )
-from metaheuristics.pso import pso, pso_1995, pso_linear
-from metaheuristics.pso_004 import pso_004
-from metaheuristics.random_search import random_search
-from metaheuristics.sparrow import sparrow, sparrow_printed
-from metaheuristics.task import Search
-from metaheuristics.whale import whale
-from metaheuristics.whale_003 import whale_003
+from metaheuristics.swarms.butterfly import butterfly
+from metaheuristics.swarms.issa import issa
+from metaheuristics.swarms.mipso import mipso, mipso_printed
+from metaheuristics.swarms.mpso import mpso
+from metaheuristics.swarms.pso import pso, pso_1995, pso_linear
+from metaheuristics.swarms.pso_zhang_2025 import pso_004
+from metaheuristics.swarms.random_search import random_search
+from metaheuristics.swarms.sparrow import sparrow, sparrow_printed
+from metaheuristics.swarms.whale import whale
+from metaheuristics.swarms.whale_lu_2024 import whale_003
 
 ALGORITHMS: dict[str, Algorithm] = {}
 """By name, in the order of tables."""

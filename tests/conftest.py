@@ -15,11 +15,9 @@ import numpy as np
 import pytest
 from hypothesis import HealthCheck, settings
 from hypothesis import strategies as st
-from numpy.typing import NDArray
 
 from formulations import CASES, Ladder, Limits, Problem, ladder, load
-
-Array = NDArray[np.float64]
+from formulations.problem.arrays import Array
 
 # the shipped cases where their optima are needed: that of z1 takes a while
 SOLVED = [pytest.param(case, marks=[pytest.mark.slow] * (case == "z1")) for case in CASES]

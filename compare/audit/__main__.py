@@ -6,10 +6,10 @@ import sys
 from pathlib import Path
 from typing import Any
 
-from compare import commands
 from compare.audit.audit import audit
 from compare.audit.chapter import HEADER, chapter
 from compare.audit.paper_file import PAPERS, load_papers
+from compare.commands import shared as commands
 
 _SHOWN = 3  # findings of one kind that are shown without --every
 

@@ -7,11 +7,11 @@ import time
 import numpy as np
 
 from formulations import FamilyBound, FamilyOptimum, Limits, Problem, family_bound
-from formulations.bounds.proof import Proof
-from formulations.exchange import shortest_segments
-from formulations.family_bound import PROVERS
-from formulations.family_optimum import polished
-from formulations.problem import Array
+from formulations.optima.family.nlp import shortest_segments
+from formulations.optima.family.optimum import polished
+from formulations.problem.arrays import Array
+from formulations.proofs.family import PROVERS
+from formulations.proofs.proof import Proof
 
 _GAP, _SECONDS = 1e-5, 4.0  # asked of a certified optimum
 _PROOF_SECONDS, _SLICE = 2.0, 256  # s and boxes of one attempt at a proof

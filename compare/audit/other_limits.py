@@ -16,8 +16,8 @@ from compare.audit.minima import crossing_times, impossible, minimum, with_limit
 from compare.audit.motions import Motion, limits_told
 from compare.audit.paper import Paper, Total
 from formulations import FamilyBound, Problem
-from formulations.problem import Array
-from formulations.trajectory import QUANTITIES
+from formulations.motion.trajectory import QUANTITIES
+from formulations.problem.arrays import Array
 
 _SLOWER = 0.02  # at least so far above the optimum of the stated limits
 _FITS = 0.001  # at most so far above that of the implied ones

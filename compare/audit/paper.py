@@ -10,7 +10,7 @@ import numpy as np
 from compare.audit.minima import UNREACHED
 from compare.audit.printed import Printed
 from formulations import InputError, Limits, Problem
-from formulations.problem import Array
+from formulations.problem.arrays import Array
 
 UNITS = {"rad": 1.0, "deg": math.pi / 180.0}
 RULES = ("sum", "difference", "mean", "reduction")

@@ -16,8 +16,8 @@ import numpy as np
 
 from compare.audit.ranged import Ranged
 from formulations import FAMILIES, Problem
-from formulations.problem import Array
-from formulations.trajectory import Extremes
+from formulations.motion.trajectory import Extremes
+from formulations.problem.arrays import Array
 
 _DUST = 1e-11  # relative: rounding of the exact extremes and of the Bernstein weights
 

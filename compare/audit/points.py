@@ -9,7 +9,7 @@ from compare.audit.paper import Paper, Point
 from compare.audit.printed import halves, values
 from formulations.arms import Arm, distance_to, load_arm, pose_of
 from formulations.arms.kinematics import Chain, error_of
-from formulations.problem import Array
+from formulations.problem.arrays import Array
 
 AXES = "xyz"
 

@@ -14,7 +14,7 @@ from typing import Any
 import numpy as np
 
 from formulations import InputError
-from formulations.problem import Array
+from formulations.problem.arrays import Array
 
 
 @dataclass(frozen=True)

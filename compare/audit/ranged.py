@@ -17,7 +17,7 @@ from typing import Any
 
 import numpy as np
 
-from formulations.problem import Array
+from formulations.problem.arrays import Array
 
 Interval = tuple[float, float]
 

@@ -7,7 +7,7 @@ import numpy as np
 from compare.audit.findings import Finding, number
 from compare.audit.paper import UNITS, Paper
 from formulations.arms import load_arm
-from formulations.problem import Array
+from formulations.problem.arrays import Array
 
 
 def unplaced_findings(paper: Paper) -> list[Finding]:

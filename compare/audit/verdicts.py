@@ -12,8 +12,8 @@ from compare.audit.minima import crossing_times
 from compare.audit.motions import ROOTS, Motion, joint_of, limits_told
 from compare.audit.other_limits import fits_other_limits
 from compare.audit.printed import halves, values
-from formulations.problem import Array
-from formulations.trajectory import QUANTITIES, TOLERANCE
+from formulations.motion.trajectory import QUANTITIES, TOLERANCE
+from formulations.problem.arrays import Array
 
 
 def motion_findings(motion: Motion) -> list[Finding]:

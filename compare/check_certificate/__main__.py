@@ -69,7 +69,9 @@ def main(arguments: list[str] | None = None) -> int:
         formatter_class=argparse.RawDescriptionHelpFormatter,
         allow_abbrev=False,
     )
-    parser.add_argument("file", metavar="FILE", help="a certificate, from compare.solve --certificate")
+    parser.add_argument(
+        "file", metavar="FILE", help="a certificate, from compare.commands.solve --certificate"
+    )
     parser.add_argument("--problem", metavar="FILE_OR_CASE", help="the problem it must be about")
     parser.add_argument(
         "--show", action="store_true", help="the inequalities that prove a bound of every motion"

@@ -2,7 +2,11 @@
 
 from __future__ import annotations
 
-from compare.papers import bagging, cobot, sr4c, ur5, z1
+from compare.papers import li_2022 as bagging
+from compare.papers import lu_2024 as z1
+from compare.papers import wang_2025 as sr4c
+from compare.papers import zhang_2025 as cobot
+from compare.papers import zhou_2025 as ur5
 from compare.papers.item import Item
 
 ITEMS: dict[str, tuple[Item, ...]] = {

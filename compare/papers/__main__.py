@@ -11,11 +11,11 @@ from concurrent.futures.process import BrokenProcessPool
 
 from tqdm import tqdm
 
-from compare import commands
+from compare.benchmark.run import each, workers
+from compare.commands import shared as commands
 from compare.papers import ITEMS, page, shelf
 from compare.papers.item import Item
 from compare.papers.shelf import Made
-from compare.run import each, workers
 from formulations import InputError
 
 Call = tuple[str, str, Item, bool]  # of shelf.make

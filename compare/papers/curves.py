@@ -7,7 +7,7 @@ from typing import Any
 from numpy.typing import ArrayLike
 
 from compare.papers.panels import Curve
-from compare.style import BLACK, BLUE, GREEN, ORANGE, PURPLE, SKY, VERMILION
+from compare.report.style import BLACK, BLUE, GREEN, ORANGE, PURPLE, SKY, VERMILION
 from formulations import FAMILIES, Problem
 
 JOINT_STYLE: list[tuple[Any, Any]] = [

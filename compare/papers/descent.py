@@ -8,8 +8,8 @@ from typing import Any
 import numpy as np
 from matplotlib.axes import Axes
 
-from compare.grade import Trace
-from compare.statistics import best_after
+from compare.benchmark.grade import Trace
+from compare.benchmark.statistics import best_after
 
 _POINTS = 80  # of a stored curve
 

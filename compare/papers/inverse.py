@@ -11,7 +11,7 @@ from compare.audit.printed import halves, values
 from compare.papers.item import Shown, Table
 from formulations.arms import Arm, branches, load_arm, nearest, pose_of
 from formulations.arms.kinematics import error_of
-from formulations.problem import Array
+from formulations.problem.arrays import Array
 
 _DUST = 1e-9  # rad, rounding of the solver
 

@@ -8,11 +8,11 @@ from typing import Any
 import numpy as np
 from numpy.typing import ArrayLike
 
-from compare.grade import Graded, Run, durations_of, grade
+from compare.benchmark.grade import Graded, Run, durations_of, grade
+from compare.benchmark.suite import Budget
 from compare.papers.printed_motions import used_most
-from compare.suite import Budget
 from formulations import FAMILIES, Problem, check, family_bound
-from formulations.problem import Array
+from formulations.problem.arrays import Array
 
 
 def trials(problem: Problem, swarm: str, budget: Budget, runs: int) -> list[Graded]:

@@ -14,11 +14,11 @@ import matplotlib as mpl
 import matplotlib.pyplot as plt
 from matplotlib.figure import Figure
 
-from compare import commands
 from compare.audit.paper_file import load_papers
+from compare.commands import shared as commands
 from compare.papers.item import Item, Table
 from compare.papers.shelf import DIED, FAILED, MISSING, OK, Made, kept
-from compare.style import STYLE
+from compare.report.style import STYLE
 
 MEANINGS = {
     FAILED: "failed",
@@ -44,7 +44,7 @@ def render(folder: str, key: str, items: Sequence[Item]) -> tuple[str, dict[str,
     mpl.use("Agg")  # a worker has no screen
     entries = [_entry(Path(folder), key, item) for item in items]
     environment = jinja2.Environment(
-        loader=jinja2.PackageLoader("compare"),
+        loader=jinja2.PackageLoader("compare.report"),
         autoescape=True,
         trim_blocks=True,
         lstrip_blocks=True,

@@ -12,10 +12,10 @@ from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 from matplotlib.lines import Line2D
 
-from compare.figures import samples
-from compare.style import BLACK, GREY, styled
+from compare.report.figures import samples
+from compare.report.style import BLACK, GREY, styled
 from formulations import Problem, Trajectory
-from formulations.trajectory import QUANTITIES, TOLERANCE
+from formulations.motion.trajectory import QUANTITIES, TOLERANCE
 
 _PER = ("", "/s", "/s²", "/s³")
 

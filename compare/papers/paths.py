@@ -10,10 +10,10 @@ import numpy as np
 from matplotlib.figure import Figure
 from matplotlib.patheffects import withStroke
 
-from compare.style import BLACK, styled
+from compare.report.style import BLACK, styled
 from formulations import Trajectory
 from formulations.arms import Arm
-from formulations.problem import Array
+from formulations.problem.arrays import Array
 
 _VIEWS = (("from above", 0, 1), ("from the front", 0, 2), ("from the side", 1, 2))
 _AXES = "xyz"

@@ -12,9 +12,9 @@ from dataclasses import asdict, dataclass
 from pathlib import Path
 from typing import Any
 
-from compare import commands
+from compare.benchmark.run import machine, versions_text
+from compare.commands import shared as commands
 from compare.papers.item import Item
-from compare.run import machine, versions_text
 
 OK, FAILED, DIED, MISSING = "ok", "failed", "died", "not made"
 

@@ -11,8 +11,8 @@ from typing import Any
 import numpy as np
 
 from formulations.arms.kinematics import Chain
-from formulations.errors import InputError
-from formulations.problem import Array
+from formulations.problem.arrays import Array
+from formulations.problem.errors import InputError
 
 ARMS: tuple[str, ...] = tuple(
     sorted(

@@ -16,8 +16,9 @@ import numpy as np
 from formulations.arms.arm import Arm
 from formulations.arms.kinematics import error_of, pose_of
 from formulations.arms.reach import refusal
-from formulations.errors import InputError, OutOfReach
-from formulations.problem import POSITION_TOLERANCE, Array
+from formulations.problem.arrays import Array
+from formulations.problem.errors import InputError, OutOfReach
+from formulations.problem.problem import POSITION_TOLERANCE
 
 _EXACT = 1e-9  # m and rad that a solution may miss its pose by
 _LOOSE = 1e-3  # of EAIK's own, before polishing

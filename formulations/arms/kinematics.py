@@ -11,7 +11,7 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import ArrayLike
 
-from formulations.problem import Array
+from formulations.problem.arrays import Array
 
 
 @dataclass(frozen=True)

@@ -9,8 +9,8 @@ from scipy.optimize import minimize
 
 from formulations.arms.arm import Arm
 from formulations.arms.kinematics import error_of
-from formulations.errors import OutOfReach
-from formulations.problem import Array
+from formulations.problem.arrays import Array
+from formulations.problem.errors import OutOfReach
 
 _STARTS = 40
 _REACHED = 1e-6  # m

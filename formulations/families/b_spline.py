@@ -20,7 +20,7 @@ from numpy.typing import NDArray
 from formulations.compiled import compiled
 from formulations.families.family import Family, scratch
 from formulations.families.polynomial import WIDTH
-from formulations.problem import Array
+from formulations.problem.arrays import Array
 
 
 @compiled

@@ -10,11 +10,12 @@ from typing import Any
 import numpy as np
 
 from formulations.compiled import Late
-from formulations.errors import InputError, UnsupportedProblem
 from formulations.families import polynomial
 from formulations.families.polynomial import WIDTH
-from formulations.problem import Array, Problem
-from formulations.trajectory import Trajectory
+from formulations.motion.trajectory import Trajectory
+from formulations.problem.arrays import Array
+from formulations.problem.errors import InputError, UnsupportedProblem
+from formulations.problem.problem import Problem
 
 _BLOCK = 256  # candidates whose coefficients fit the processor's cache
 

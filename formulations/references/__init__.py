@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Callable
 
-from formulations.problem import Problem
+from formulations.problem.problem import Problem
 from formulations.references.copp_ import copp_on
 from formulations.references.displacement import displacement
 from formulations.references.reference import Outcome

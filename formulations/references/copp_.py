@@ -12,9 +12,10 @@ from typing import Any
 
 import numpy as np
 
-from formulations.problem import Array, Problem
+from formulations.motion.trajectory import Trajectory
+from formulations.problem.arrays import Array
+from formulations.problem.problem import Problem
 from formulations.references.reference import Outcome
-from formulations.trajectory import Trajectory
 
 _GRIDS = (24, 48)  # intervals per piece
 _SETTLED = 1e-5  # relative change of the time at which linearising again ends

@@ -10,7 +10,8 @@ from __future__ import annotations
 
 import numpy as np
 
-from formulations.problem import Array, Problem
+from formulations.problem.arrays import Array
+from formulations.problem.problem import Problem
 from formulations.references.reference import Outcome
 
 

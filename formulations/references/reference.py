@@ -5,8 +5,8 @@ from __future__ import annotations
 from dataclasses import dataclass
 from typing import Literal
 
-from formulations.problem import Array
-from formulations.trajectory import Trajectory
+from formulations.motion.trajectory import Trajectory
+from formulations.problem.arrays import Array
 
 OutcomeStatus = Literal["ok", "not-applicable", "failed"]
 

@@ -13,9 +13,10 @@ from itertools import pairwise
 import numpy as np
 import ruckig
 
-from formulations.problem import Array, Problem
+from formulations.motion.trajectory import Trajectory, check
+from formulations.problem.arrays import Array
+from formulations.problem.problem import Problem
 from formulations.references.reference import Outcome
-from formulations.trajectory import Trajectory, check
 
 
 def ruckig_end_to_end(problem: Problem) -> Outcome:

@@ -15,10 +15,11 @@ import numpy as np
 import toppra
 from scipy.interpolate import CubicSpline
 
-from formulations.problem import Array, Problem
+from formulations.motion.trajectory import Trajectory
+from formulations.problem.arrays import Array
+from formulations.problem.problem import Problem
 from formulations.references.displacement import displacement_segments
 from formulations.references.reference import Outcome
-from formulations.trajectory import Trajectory
 
 _GRIDS = (100, 200, 400, 800, 1600)  # intervals per path piece, coarse to fine
 _GRID_ERROR = 2e-4  # refine until doubling the grid changes the duration by less

@@ -1,0 +1,86 @@
+"""What is compared: cases, swarms, codings, seeds and budgets of a default, quick and full run."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+from compare.benchmark.grade import Run
+from compare.benchmark.objective import CODINGS
+from formulations import CASES, load
+from metaheuristics import ALGORITHMS
+
+
+@dataclass(frozen=True)
+class Budget:
+    """Population and number of iterations after the first population."""
+
+    population: int
+    iterations: int
+
+    @property
+    def evaluations(self) -> int:
+        """Every evaluation counts, the first population too."""
+        return self.population * (self.iterations + 1)
+
+
+# 000 Table 7; 001 sec. 3; 002 sec. 5.2; 004 sec. 3.2; 003 sec. 3.2
+PAPER_BUDGETS: dict[str, Budget] = {
+    "sr4c": Budget(50, 50),
+    "bagging": Budget(20, 200),
+    "ur5": Budget(1000, 50),
+    "ur5-corrected": Budget(1000, 50),
+    "cobot": Budget(20, 200),
+    "z1": Budget(30, 500),
+}
+DEFAULT_BUDGET = Budget(50, 50)
+QUICK_BUDGET = Budget(20, 20)
+
+SEEDS = {"default": 5, "quick": 2, "full": 30}
+
+# what runs unless it is named: all of the papers and a few controls; whole rival libraries on demand
+QUICK_SWARMS = [
+    "pso", "mipso", "mpso", "pso-004", "sparrow", "issa", "whale", "whale-003", "random", "de",
+]  # fmt: skip
+DEFAULT_CONTROLS = ["random", "de", "cma-es"]
+FULL_CONTROLS = ["random", "sobol", "de", "cma-es", "annealing", "nelder-mead", "slsqp"]
+RIVALS = ["lshade", "mealpy:OriginalPSO", "mealpy:OriginalWOA", "pymoo:PSO", "nevergrad:NGOpt"]
+
+
+def swarms_of(size: str) -> list[str]:
+    """Names of the swarms of a default, quick or full run."""
+    if size == "quick":
+        return QUICK_SWARMS
+    papers = [name for name, entry in ALGORITHMS.items() if entry.group != "controls"]
+    return papers + (FULL_CONTROLS if size == "full" else DEFAULT_CONTROLS)
+
+
+def quick_cases() -> list[str]:
+    """All but the B-splines, whose optimum takes longer than a quick run may."""
+    return [case for case in CASES if not load(case).family.startswith("b-spline")]
+
+
+def runs(
+    *,
+    size: str = "default",
+    cases: list[str] | None = None,
+    swarms: list[str] | None = None,
+    codings: list[str] | None = None,
+    seeds: int | None = None,
+    evaluations: int | None = None,
+    seconds: float | None = None,
+) -> list[Run]:
+    """The runs of one comparison, in a fixed order. size: default, quick or full."""
+    listed = []
+    for case in cases if cases is not None else CASES:
+        budget = DEFAULT_BUDGET
+        if size == "quick":
+            budget = QUICK_BUDGET
+        elif size == "full":
+            budget = PAPER_BUDGETS.get(case, DEFAULT_BUDGET)
+        for coding in codings if codings is not None else CODINGS:
+            for swarm in swarms if swarms is not None else swarms_of(size):
+                for seed in range(seeds if seeds is not None else SEEDS[size]):
+                    total = evaluations or budget.evaluations
+                    run = Run(case, coding, swarm, seed, total, budget.population, seconds)
+                    listed.append(run)
+    return listed

@@ -1,8 +1,0 @@
-"""Paper 004 (Zhang et al. 2025, cobot): every table and figure that can be made again, in its order."""
-
-from __future__ import annotations
-
-from compare.papers.cobot import angles, motion, times
-from compare.papers.item import Item
-
-ITEMS: tuple[Item, ...] = (*angles.ITEMS, *times.ITEMS, *motion.ITEMS)

@@ -1,8 +1,0 @@
-"""Paper 003 (Lu & Wang 2024, Unitree Z1): every table and figure that can be made again, in its order."""
-
-from __future__ import annotations
-
-from compare.papers.item import Item
-from compare.papers.z1 import arm, chaos, motion
-
-ITEMS: tuple[Item, ...] = (*chaos.ITEMS, *arm.ITEMS, *motion.ITEMS)

@@ -1,0 +1,1 @@
+"""The report: pages, figures and their style, drawn from stored rows alone."""

@@ -1,0 +1,1 @@
+"""A motion as exact piecewise polynomials, the check that judges it, and files of motions."""

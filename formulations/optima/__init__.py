@@ -1,0 +1,1 @@
+"""Upper bounds: the fastest spline of a family, and the fastest motion of all."""

@@ -1,0 +1,94 @@
+"""Arcs of all joints as one trajectory of common polynomial pieces, exact to rounding.
+
+Break times are rounded to a grid that doubles hold exactly, so that sums and differences of them are
+exact. Joints with a velocity limit alone cross each segment on a trapezoid with very short ramps.
+"""
+
+from __future__ import annotations
+
+from dataclasses import replace
+
+import numpy as np
+from numpy.typing import NDArray
+
+from formulations.motion.trajectory import Trajectory
+from formulations.optima.free_form.nlp.arcs import Motion
+from formulations.optima.free_form.nlp.task import Task
+from formulations.problem.arrays import Array
+
+RAMP = 1e-6  # share of a segment in which a joint with a velocity limit alone changes its velocity
+
+
+def least_times(task: Task) -> Array:
+    """Least time of each segment by the joints with a velocity limit alone, (S,) [s].
+
+    Their infimum |d| / V is no motion's: the velocity needs some time to change.
+    """
+    joints = task.group(1)
+    shares = np.abs(task.displacements[:, joints]) / task.limits[0][:, joints]
+    return np.asarray(shares.max(axis=1, initial=0.0) / (1.0 - 3.0 * RAMP))
+
+
+def trajectory(task: Task, motion: Motion) -> Trajectory:
+    """The motion as common pieces; its arcs' tops are moved by rounding or a solver's tolerance."""
+    grid = 2.0 ** (np.ceil(np.log2(motion.times.sum())) - 52)
+    passages = np.round(np.concatenate([[0.0], np.cumsum(motion.times)]) / grid) * grid
+    ends = {}
+    for j, arcs in motion.joints.items():
+        inner = np.round((passages[:-1, None] + np.cumsum(arcs.durations, axis=1)) / grid) * grid
+        inner[:, -1] = passages[1:]
+        ends[j] = np.minimum(inner, passages[1:, None])
+    ramps = _ramps(task, passages, grid)
+    breaks = np.unique(np.concatenate([passages, ramps.ravel(), *(e.ravel() for e in ends.values())]))
+    durations = np.diff(breaks)
+    middles = breaks[:-1] + 0.5 * durations
+    segment = np.searchsorted(passages, middles) - 1
+    coefficients = np.zeros((len(durations), task.problem.dof, 4))
+    coefficients[:, :, 0] = task.waypoints[segment]
+    for j, arcs in motion.joints.items():
+        lengths = np.diff(np.concatenate([passages[:-1, None], ends[j]], axis=1), axis=1)
+        exact = replace(arcs, durations=lengths).projected(task.displacements[:, j])
+        top = exact.tops.ravel()[np.searchsorted(ends[j].ravel(), middles)]
+        start = np.column_stack([task.waypoints[:-1, j], exact.states[:-1]])[segment]
+        coefficients[:, j] = _integrated(durations, segment, top, start, arcs.order)
+    for j in task.group(1):
+        slopes, v = _trapezoids(task, j, passages, ramps)
+        top = slopes.ravel()[np.searchsorted(ramps.ravel(), middles) - 1]
+        start = np.column_stack([task.waypoints[:-1, j], v[:-1], 0.0 * v[:-1]])[segment]
+        coefficients[:, j] = _integrated(durations, segment, top, start, 2)
+    return Trajectory(durations, coefficients, passages[task.waypoint_of])
+
+
+def _integrated(h: Array, segment: NDArray[np.intp], top: Array, start: Array, order: int) -> Array:
+    """Coefficients (n_pieces, 4) from the highest derivative and the state (n_pieces, 3) of the
+    waypoint before.
+    """
+    first = np.searchsorted(segment, np.arange(segment[-1] + 1))[segment]
+
+    def since_waypoint(steps: Array) -> Array:
+        sums = np.concatenate([[0.0], np.cumsum(steps)])
+        return np.asarray(sums[:-1] - sums[first])
+
+    x, v, a = start.T
+    jerk = top if order == 3 else np.zeros_like(top)
+    a = a + since_waypoint(h * jerk) if order == 3 else top
+    v = v + since_waypoint(h * (a + h * jerk / 2.0))
+    x = x + since_waypoint(h * (v + h * (a / 2.0 + h * jerk / 6.0)))
+    return np.stack([x, v, a / 2.0, jerk / 6.0], axis=1)
+
+
+def _ramps(task: Task, passages: Array, grid: float) -> Array:
+    """Start, end of the rise and start of the fall of the trapezoids, (S, 3); empty if none."""
+    if not task.group(1):
+        return np.zeros((0, 3))
+    length = np.maximum(np.round(RAMP * np.diff(passages) / grid) * grid, grid)
+    return np.stack([passages[:-1], passages[:-1] + length, passages[1:] - length], axis=1)
+
+
+def _trapezoids(task: Task, j: int, passages: Array, ramps: Array) -> tuple[Array, Array]:
+    """Acceleration on each part of each segment, (S, 3), and velocities at the waypoints, (S + 1,)."""
+    rise, seconds = ramps[:, 1] - ramps[:, 0], np.diff(passages)
+    v = np.zeros(len(passages))
+    v[[0, -1]] = task.ends[:, j]
+    cruise = (task.displacements[:, j] - rise * (v[:-1] + v[1:]) / 2.0) / (seconds - rise)
+    return np.stack([(cruise - v[:-1]) / rise, 0.0 * rise, (v[1:] - cruise) / rise], axis=1), v

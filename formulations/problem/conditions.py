@@ -1,0 +1,148 @@
+"""What may be asked of a motion beyond its problem: times, stops, end velocities, other limits."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from dataclasses import dataclass, field
+
+import numpy as np
+
+from formulations.problem.arrays import Array
+from formulations.problem.errors import InputError
+from formulations.problem.problem import Limits, Problem
+
+
+@dataclass(frozen=True)
+class Conditions:
+    """Conditions on a motion; all optional. Waypoints and segments count from 0.
+
+    passage: waypoint -> time [s] from the start at which it is passed.
+    total: time of the whole motion [s]; the motion asked for is then the smoothest, not the fastest.
+    stops: waypoints at which the motion stands still: zero velocity, and zero acceleration for joints
+    with a jerk limit, as at both ends.
+    start_velocity, end_velocity: (dof,) [rad/s] in place of rest.
+    segment_limits: segment -> limits that replace the problem's there.
+    """
+
+    passage: Mapping[int, float] = field(default_factory=dict)
+    total: float | None = None
+    stops: frozenset[int] = frozenset()
+    start_velocity: Array | None = None
+    end_velocity: Array | None = None
+    segment_limits: Mapping[int, Limits] = field(default_factory=dict)
+
+    @property
+    def none(self) -> bool:
+        """Whether nothing is asked for."""
+        given = (self.total, self.start_velocity, self.end_velocity)
+        return not (self.passage or self.stops or self.segment_limits) and all(v is None for v in given)
+
+    def validate(self, problem: Problem) -> None:
+        """Raise InputError, with key and value, for what does not fit the problem."""
+        last = problem.n_segments
+        for key, waypoints in (("passage", self.passage), ("stops", self.stops)):
+            for waypoint in waypoints:
+                _require_index(f"conditions.{key}: waypoint", waypoint, last)
+        for segment, limits in self.segment_limits.items():
+            _require_index("conditions.segment_limits: segment", segment, last - 1)
+            self._validate_limits(problem, segment, limits)
+        self._validate_times(problem)
+        for key, velocity, segment, waypoint in (
+            ("start_velocity", self.start_velocity, 0, 0),
+            ("end_velocity", self.end_velocity, last - 1, last),
+        ):
+            if velocity is None:
+                continue
+            found = np.asarray(velocity, dtype=np.float64)
+            if found.shape != (problem.dof,):
+                raise InputError(f"conditions.{key}: expected {problem.dof} values, got {found.shape}")
+            for joint, (value, limit) in enumerate(
+                zip(found, self.limits(problem)[segment].velocity, strict=True)
+            ):
+                if not abs(value) <= limit:  # also true for NaN
+                    raise InputError(
+                        f"conditions.{key}: joint {joint + 1}: {value:g} rad/s is over the limit "
+                        f"{limit:g} rad/s"
+                    )
+            if waypoint in self.stops and found.any():
+                raise InputError(f"conditions.{key}: {found} at waypoint {waypoint}, which is a stop")
+
+    def _validate_times(self, problem: Problem) -> None:
+        if self.total is not None and not (np.isfinite(self.total) and self.total > 0.0):
+            raise InputError(f"conditions.total: {self.total:g} s is not a positive time")
+        before, earlier = 0, 0.0
+        for waypoint, time in sorted(self.passage.items()):
+            if not (np.isfinite(time) and time >= 0.0):
+                raise InputError(f"conditions.passage: waypoint {waypoint}: {time:g} s is no time")
+            if waypoint == 0 and time != 0.0:
+                raise InputError(f"conditions.passage: waypoint 0: {time:g} s, not the start, 0 s")
+            moves = np.ptp(problem.waypoints[before : waypoint + 1], axis=0).any()
+            if time < earlier or (moves and time <= earlier):
+                raise InputError(
+                    f"conditions.passage: waypoint {waypoint}: {time:g} s is not after waypoint "
+                    f"{before} at {earlier:g} s"
+                )
+            before, earlier = waypoint, time
+        end = self.passage.get(problem.n_segments)
+        if self.total is not None and end is not None and end != self.total:
+            raise InputError(
+                f"conditions.total: {self.total:g} s, but conditions.passage puts the last waypoint "
+                f"at {end:g} s"
+            )
+        if self.total is not None and earlier > self.total:
+            raise InputError(
+                f"conditions.passage: waypoint {before}: {earlier:g} s is after conditions.total, "
+                f"{self.total:g} s"
+            )
+
+    def _validate_limits(self, problem: Problem, segment: int, limits: Limits) -> None:
+        where = f"conditions.segment_limits: segment {segment}"
+        try:
+            Problem.of(problem.waypoints[segment : segment + 2], limits)
+        except InputError as error:
+            raise InputError(f"{where}: {error}") from None
+        for key in ("acceleration", "jerk"):
+            mine, whole = getattr(limits, key), getattr(problem.limits, key)
+            differs = np.isfinite(mine) != np.isfinite(whole)
+            if differs.any():
+                joint = int(differs.argmax())
+                raise InputError(
+                    f"{where}: {key} of joint {joint + 1} is {mine[joint]:g}, the problem's is "
+                    f"{whole[joint]:g}: both must be finite or neither"
+                )
+
+    def limits(self, problem: Problem) -> list[Limits]:
+        """The limits in force on each segment."""
+        return [self.segment_limits.get(k, problem.limits) for k in range(problem.n_segments)]
+
+    def derivatives(self, problem: Problem) -> Array:
+        """Velocity, acceleration and jerk limits in force, (3, n_segments, dof)."""
+        return np.stack([limits.derivatives for limits in self.limits(problem)], axis=1)
+
+    def position_bounds(self, problem: Problem) -> Array:
+        """Position limits in force per segment, (n_segments, dof, 2) [rad].
+
+        Widened to the segment's own waypoints where limits are replaced, as the problem's are to all.
+        """
+        bounds = np.tile(problem.position_bounds, (problem.n_segments, 1, 1))
+        for k, limits in self.segment_limits.items():
+            ends = problem.waypoints[k : k + 2]
+            bounds[k, :, 0] = np.minimum(limits.position[:, 0], ends.min(axis=0))
+            bounds[k, :, 1] = np.maximum(limits.position[:, 1], ends.max(axis=0))
+        return bounds
+
+    def end_velocities(self, problem: Problem) -> Array:
+        """Velocities at the start and at the end, (2, dof) [rad/s]."""
+        still = np.zeros(problem.dof)
+        ends = (self.start_velocity, self.end_velocity)
+        return np.stack([still if v is None else np.asarray(v, dtype=np.float64) for v in ends])
+
+    def times(self, problem: Problem) -> dict[int, float]:
+        """Waypoints with a fixed time, that of the whole motion included; not waypoint 0."""
+        fixed = {waypoint: float(time) for waypoint, time in self.passage.items() if waypoint > 0}
+        return fixed if self.total is None else {**fixed, problem.n_segments: float(self.total)}
+
+
+def _require_index(what: str, index: int, last: int) -> None:
+    if isinstance(index, bool) or not isinstance(index, int | np.integer) or not 0 <= index <= last:
+        raise InputError(f"{what} {index!r} is not there: 0 to {last}")

@@ -1,0 +1,1 @@
+"""Arithmetic rounded outward: scalars in compiled code, and intervals on whole arrays."""

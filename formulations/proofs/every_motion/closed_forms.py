@@ -1,0 +1,94 @@
+"""Lower bounds in closed form: what no motion through the waypoints can do without.
+
+Displacement: |d| / V on every segment. End to end: rest to rest from the first waypoint to the last.
+One by one: each segment by itself, the first from rest, the last to rest, the others at top speed.
+
+Every formula is a few roundings of sums and products of positive numbers, 1e-14 at most in relative
+size, and continuous from case to case; ``SAFE`` is far beyond that.
+"""
+
+from __future__ import annotations
+
+import math
+
+import numpy as np
+
+from formulations.problem.arrays import Array
+from formulations.problem.problem import Problem
+from formulations.references.ruckig_ import rest_to_rest
+
+SAFE = 1e-12
+
+
+def displacement_bound(problem: Problem) -> float:
+    """Sum over the segments of displacement at top speed [s]."""
+    each = (np.abs(problem.displacements) / problem.limits.velocity).max(axis=1)
+    return float(each.sum()) * (1.0 - SAFE)
+
+
+def end_to_end_bound(problem: Problem) -> float:
+    """Rest to rest from the first to the last waypoint, joint by joint [s]."""
+    distances = np.abs(problem.waypoints[-1] - problem.waypoints[0])
+    return max(_rest_to_rest(problem, j, d) for j, d in enumerate(distances)) * (1.0 - SAFE)
+
+
+def least_durations(problem: Problem) -> Array:
+    """What each segment takes by itself, (n_segments,) [s]."""
+    each = (np.abs(problem.displacements) / problem.limits.velocity).max(axis=1)
+    if problem.n_segments == 1:
+        return np.array([end_to_end_bound(problem)])
+    for k in {0, problem.n_segments - 1}:
+        for j, d in enumerate(np.abs(problem.displacements[k])):
+            each[k] = max(each[k], _from_rest(problem, j, float(d)))
+    return np.asarray(each * (1.0 - SAFE))
+
+
+def stop_and_go(problem: Problem) -> Array:
+    """Rest to rest on each segment, (n_segments,) [s], rounded up.
+
+    A motion, unless a joint's velocity alone is limited.
+    """
+    each = [
+        max(_rest_to_rest(problem, j, float(d)) for j, d in enumerate(row))
+        for row in np.abs(problem.displacements)
+    ]
+    return np.array(each) * (1.0 + SAFE)
+
+
+def _rest_to_rest(problem: Problem, j: int, distance: float) -> float:
+    V, A, J = problem.limits.derivatives[:, j]
+    if distance == 0.0 or (np.isinf(A) and np.isinf(J)):
+        return float(distance / V)
+    return rest_to_rest(distance, float(V), float(A), float(J))
+
+
+def _from_rest(problem: Problem, j: int, distance: float) -> float:
+    """Least time in which a joint can be ``distance`` away from where it rested [s]: by bisection."""
+    V, A, J = (float(limit) for limit in problem.limits.derivatives[:, j])
+    low, high = 0.0, _rest_to_rest(problem, j, distance)
+    while high - low > SAFE * high:
+        middle = 0.5 * (low + high)
+        if _farthest_from_rest(middle, V, A, J) < distance * (1.0 - SAFE):
+            low = middle
+        else:
+            high = middle
+    return low
+
+
+def _farthest_from_rest(t: float, V: float, A: float, J: float) -> float:
+    """How far a joint gets from rest in t seconds [rad]: jerk J, acceleration A, jerk -J, speed V."""
+    if math.isinf(J):
+        rise = V / A
+        return A * t**2 / 2.0 if t <= rise else V * (t - rise / 2.0)
+    rise = min(A / J, math.sqrt(V / J))
+    steepest = J * rise
+    hold = max(V / steepest - rise, 0.0)
+    if t <= rise:
+        return J * t**3 / 6.0
+    if t <= rise + hold:
+        s = t - rise
+        return J * rise**3 / 6.0 + s * (steepest * rise / 2.0 + s * steepest / 2.0)
+    left = 2.0 * rise + hold - t  # before top speed
+    if left > 0.0:
+        return V * (2.0 * rise + hold) / 2.0 - V * left + J * left**3 / 6.0
+    return V * (t - (2.0 * rise + hold) / 2.0)

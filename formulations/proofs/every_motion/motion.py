@@ -1,0 +1,188 @@
+"""A motion from durations and states: where the relaxation is tight, the fastest one there is.
+
+Between the waypoints each joint moves by a mixture of the two motions that go farthest forwards and
+farthest backwards (``switches``) with the least share of its acceleration and jerk limits that does: it
+keeps every limit as both do, and starts and ends in the same states.
+
+Nothing rests on this: whoever uses the motion has it checked. Position limits are kept at the
+waypoints, by the rows, and mostly between them, as the motion is a gentle one.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import numpy as np
+
+from formulations.motion.trajectory import Trajectory
+from formulations.problem.arrays import Array, Truths
+from formulations.problem.problem import Problem
+from formulations.proofs.every_motion.relaxation.reach import distance_coefficients, speed_coefficients
+from formulations.proofs.every_motion.relaxation.switches import (
+    farthest,
+    farthest_without_jerk,
+    fastest,
+)
+from formulations.proofs.every_motion.states import States
+
+_STEPS = 60  # of Newton's method, to the last digit
+_CLOSE = 1e-12  # breaks, in normalised time
+_BISECTIONS = 20  # for the gentlest share
+
+# jerks in units of its limit between the switches; without one, accelerations
+_JERKS = (1.0, 0.0, -1.0, 0.0, -1.0, 0.0, 1.0)
+_ACCELERATIONS = (0.0, 1.0, 0.0, 0.0, 0.0, -1.0, 0.0)
+
+
+def motion_through(problem: Problem, durations: Array, states: States) -> Trajectory | None:
+    """The motion with durations (K,) [s] of the segments that move; to be checked.
+
+    None if a joint without a limit on acceleration or jerk would jump in its speed, or if the numbers
+    leave the range of floats.
+    """
+    task, v, a = states.task, states.velocities, states.accelerations
+    if set(problem.moving_joints) != set(task.joints.tolist()):
+        return None
+    T = durations[:, None]
+    ends = _Ends(
+        *(v[:-1] * T, a[:-1] * T**2, v[1:] * T, a[1:] * T**2),
+        *(task.velocity * T, task.acceleration * T**2, task.jerk * T**3),
+    )
+    ways = _ways(ends, task.displacements)
+    lengths, pieces, passages = [], [], np.zeros(problem.n_segments + 1)
+    for row, k in enumerate(task.segments):
+        breaks, values = _mixed([(switches[row], bends[row]) for switches, bends in ways])
+        h = np.diff(breaks)
+        coefficients = np.zeros((len(h), problem.dof, 4))
+        coefficients[:, :, 0] = problem.waypoints[k]
+        moved = _integrated(h, problem.waypoints[k, task.joints], ends.of(row), values)
+        coefficients[:, task.joints] = moved / durations[row] ** np.arange(4)
+        lengths.append(h * durations[row])
+        pieces.append(coefficients)
+        passages[k + 1] = lengths[-1].sum()
+    moves = np.concatenate(pieces)
+    if not np.isfinite(moves).all():
+        return None
+    return Trajectory(np.concatenate(lengths), moves, np.cumsum(passages))
+
+
+@dataclass(frozen=True)
+class _Ends:
+    """All joints in one segment (n,), or in all (K, n), in normalised time; J is 0 where unlimited."""
+
+    v0: Array
+    W0: Array
+    v1: Array
+    W1: Array
+    V: Array
+    A: Array
+    J: Array
+
+    @property
+    def limited(self) -> Truths:
+        return self.J > 0.0
+
+    def of(self, row: int) -> _Ends:
+        """Those of one segment."""
+        return _Ends(*(end[row] for end in vars(self).values()))
+
+    def farthest(self, sign: float, share: Array) -> tuple[Array, Truths, Array]:
+        """Switches (..., 6), whether it cruises, how far it goes, with a share of A and J."""
+        A, J = share * self.A, np.where(self.limited, share * self.J, 1.0)
+        ends = (sign * end for end in (self.v0, self.W0, self.v1, self.W1))
+        v0, W0, v1, W1, V, A, J = (x.ravel() for x in (*ends, self.V, A, J))
+        six, cruises = farthest(v0, W0, v1, W1, V, A, J, _STEPS)
+        plain, plainly = farthest_without_jerk(v0, v1, V, A)
+        limited = self.limited.ravel()
+        six, cruises = np.where(limited[:, None], six, plain), np.where(limited, cruises, plainly)
+        point = [v0, W0, v1, W1, V, A, np.where(limited, J, 0.0)]
+        turns, stays = (_sum(distance_coefficients(six, which), point) for which in (False, True))
+        shape = share.shape
+        distance = np.where(cruises, stays, turns).reshape(shape)
+        return six.reshape(*shape, 6), cruises.reshape(shape), distance
+
+    def can(self, d: Array, share: Array) -> Truths:
+        """Whether a displacement d can be had with a share of A and J."""
+        A, J = share * self.A, np.where(self.limited, share * self.J, 1.0)
+        can = np.maximum(np.abs(self.W0), np.abs(self.W1)) <= A
+        for v, W in ((self.v0, self.W0), (self.v1, self.W1)):
+            can &= np.abs(v) + np.where(self.limited, W**2 / (2.0 * J), 0.0) <= self.V
+        for sign in (1.0, -1.0):
+            W0, W1, A_, J_ = (x.ravel() for x in (sign * self.W0, sign * self.W1, A, J))
+            gain = _sum(speed_coefficients(fastest(W0, W1, A_, J_)), [W0, W1, A_, J_])
+            gain = np.where(self.limited, gain.reshape(A.shape), A)
+            can &= sign * (self.v1 - self.v0) <= gain
+            can &= sign * d <= self.farthest(sign, share)[2]
+        return can
+
+    def gentlest(self, d: Array) -> Array:
+        """The least share of A and J with which displacements d can be had."""
+        low, high = np.zeros_like(d), np.ones_like(d)
+        for _ in range(_BISECTIONS):
+            middle = 0.5 * (low + high)
+            can = self.can(d, middle)
+            low, high = np.where(can, low, middle), np.where(can, middle, high)
+        return high
+
+
+def _sum(coefficients: tuple[Array, ...], point: list[Array]) -> Array:
+    return np.asarray(sum(c * x for c, x in zip(coefficients, point, strict=True)))
+
+
+def _ways(ends: _Ends, d: Array) -> list[tuple[Array, Array]]:
+    """Farthest forwards, farthest backwards: breaks (K, n, 8), and jerks, or accelerations, between
+    them (K, n, 7), weighted so that the sum of both covers d.
+    """
+    share = ends.gentlest(d)
+    found, covered = [], []
+    for sign in (1.0, -1.0):
+        six, cruises, _ = ends.farthest(sign, share)
+        pattern = np.where(ends.limited[..., None], _JERKS, _ACCELERATIONS)
+        pattern[..., 3] = np.where(cruises | ~ends.limited, 0.0, -1.0)
+        size = sign * share * np.where(ends.limited, ends.J, ends.A)
+        outer = np.zeros((*share.shape, 1))
+        breaks = np.concatenate([outer, six, outer + 1.0], axis=-1)
+        found.append((breaks, pattern * size[..., None]))
+        covered.append(_covered(ends, *found[-1]))
+    most, least = covered
+    spread = np.where(most > least, most - least, 1.0)
+    ahead = np.where(most > least, (d - least) / spread, 0.5)
+    weights = (ahead, 1.0 - ahead)
+    return [(b, w * part[..., None]) for (b, w), part in zip(found, weights, strict=True)]
+
+
+def _mixed(ways: list[tuple[Array, Array]]) -> tuple[Array, Array]:
+    """Breaks (m + 1,) common to all joints of a segment, and the sum of both ways, (m, n)."""
+    breaks = np.unique(np.concatenate([switches.ravel() for switches, _ in ways]))
+    breaks = breaks[np.diff(breaks, prepend=-1.0) > _CLOSE]
+    breaks = np.append(breaks[breaks < 1.0 - _CLOSE], 1.0)
+    total = np.zeros((len(breaks) - 1, len(ways[0][0])))
+    for switches, values in ways:
+        # means, as breaks that are closer than that are one
+        sums = np.cumsum(values * np.diff(switches), axis=1)
+        for j in range(total.shape[1]):
+            total[:, j] += np.diff(np.interp(breaks, switches[j], np.append(0.0, sums[j])))
+    return breaks, total / np.diff(breaks)[:, None]
+
+
+def _covered(ends: _Ends, breaks: Array, values: Array) -> Array:
+    """Displacements by jerks, or accelerations, between breaks."""
+    x, v, W = np.zeros_like(ends.v0), ends.v0, ends.W0
+    for i in range(values.shape[-1]):
+        h, value = breaks[..., i + 1] - breaks[..., i], values[..., i]
+        W, bend = np.where(ends.limited, W, value), np.where(ends.limited, value, 0.0)
+        x = x + h * (v + h * (W / 2.0 + h * bend / 6.0))
+        v, W = v + h * (W + h * bend / 2.0), W + h * bend
+    return x
+
+
+def _integrated(h: Array, x: Array, ends: _Ends, values: Array) -> Array:
+    """Coefficients (m, n, 4) of the pieces of lengths h (m,) from x (n,) on."""
+    found = np.zeros((*values.shape, 4))
+    v, W = ends.v0, ends.W0
+    for i, (step, value) in enumerate(zip(h, values, strict=True)):
+        W, bend = np.where(ends.limited, W, value), np.where(ends.limited, value, 0.0)
+        found[i] = np.stack([x, v, W / 2.0, bend / 6.0], axis=1)
+        x = x + step * (v + step * (W / 2.0 + step * bend / 6.0))
+        v, W = v + step * (W + step * bend / 2.0), W + step * bend
+    return found

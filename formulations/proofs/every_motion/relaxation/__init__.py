@@ -1,0 +1,1 @@
+"""The linear relaxation that every motion satisfies: its variables, rows and solver."""

@@ -1,0 +1,224 @@
+"""The relaxation's variables and rows, all of the form a x <= b, in finite boxes.
+
+Variables, each of order 1: the duration T of a segment, 1 / T and T^2; velocity v and acceleration a of
+a joint at a waypoint; W = T a at both ends of a segment. Rows:
+
+    sum of T <= H                                                                                (5)
+    1 / T <= 1 / l + 1 / h - T / (l h)       secant over l <= T <= h                             (6)
+    1 / T >= 2 / t - T / t^2                 tangent at t                                        (7)
+    T^2 <= (h + 2 t) T + h t^2 / T - 2 h t - t^2     (T - t)^2 (h - T) / T >= 0                   (8)
+    (T - t) (a - e) of one sign              T at a bound t, a at a bound e (McCormick 1976)     (9)
+    |v| + (2 c W - c^2 T^2) / (2 J) <= V     tangent of |v| + a^2 / (2 J) <= V, c = a / T        (10)
+    (1), (2) and (3) of ``reach``.
+
+(8) is what makes the relaxation tight: with (6) and (7) it bounds the convex hull of the curve
+(T, 1 / T, T^2) where it matters; the secant of T^2 is the case t = l. In (10) a falls to 0, or rose
+from it, with |j| <= J at a speed within V. The least sum of T over these rows is a lower bound whatever
+t, c and switches they are posed at.
+
+Rounding: coefficients are the exact ones but for at most 32 roundings, none of which cancels. Each
+right hand side is raised by 64 u sum |a_i| max |x_i|, u = 2^-53, so that the rows in floats hold for
+every motion.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import numpy as np
+from numpy.typing import NDArray
+from scipy.sparse import csr_array, vstack
+
+from formulations.problem.arrays import Array, Indices
+from formulations.proofs.every_motion.relaxation.cuts import (
+    CRUISE,
+    HULL,
+    PEAK_AT_END,
+    PEAK_AT_START,
+    PRODUCT_AT_END,
+    PRODUCT_AT_START,
+    SPEED,
+    STOP_AT_END,
+    STOP_AT_START,
+    TANGENT,
+    Cuts,
+)
+from formulations.proofs.every_motion.relaxation.reach import (
+    distance_coefficients,
+    speed_coefficients,
+    stop_coefficients,
+)
+from formulations.proofs.every_motion.relaxation.task import DOWN, UP, Task
+
+_ALLOWANCE = 64.0 * 2.0**-53
+
+
+@dataclass(frozen=True)
+class Rows:
+    """Rows matrix x <= upper: (m, size) and (m,)."""
+
+    matrix: csr_array
+    upper: Array
+
+    def __len__(self) -> int:
+        return len(self.upper)
+
+    def normal(self) -> Rows:
+        """The same rows with largest coefficients between 1 and 2: powers of two do not round."""
+        largest = abs(self.matrix).max(axis=1).toarray().ravel()
+        scale = np.exp2(-np.floor(np.log2(largest)))
+        return Rows(csr_array(self.matrix.multiply(scale[:, None])), self.upper * scale)
+
+    @staticmethod
+    def joined(blocks: list[Rows]) -> Rows:
+        """Several blocks as one."""
+        matrix = csr_array(vstack([block.matrix for block in blocks], format="csr"))
+        return Rows(matrix, np.concatenate([block.upper for block in blocks]))
+
+
+class Frame:
+    """Boxes and scales for one task, and the rows in them.
+
+    durations: (K, 2) [s] and accelerations: (K + 1, n, 2) [rad/s^2], boxes that hold every motion of at
+    most ``task.horizon`` seconds. typical: (K,) [s], the unit of each duration.
+    """
+
+    def __init__(self, task: Task, durations: Array, accelerations: Array, typical: Array) -> None:
+        self.task, self.typical = task, typical
+        self.durations, self.accelerations = durations, accelerations
+        K, n = self.K, self.n = task.displacements.shape
+        ends = np.cumsum([K, K, K, (K + 1) * n, (K + 1) * n, 2 * K * n])
+        self.size = int(ends[-1])
+        numbers = np.split(np.arange(self.size), ends[:-1])
+        self.T, self.inverse, self.square = numbers[:3]
+        self.v, self.a = (block.reshape(K + 1, n) for block in numbers[3:5])
+        self.W = numbers[5].reshape(K, n, 2)
+        self.low, self.high = durations[:, 0] / typical * DOWN, durations[:, 1] / typical * UP
+        # velocities and accelerations in units of their limits, W = T a in those of T and a
+        share = accelerations / task.acceleration[:, None]
+        self.least_a = share[..., 0] - np.abs(share[..., 0]) * (UP - 1.0)
+        self.most_a = share[..., 1] + np.abs(share[..., 1]) * (UP - 1.0)
+        for bound in (self.least_a, self.most_a):
+            bound[[0, -1]] = 0.0
+            bound[:, ~task.has_jerk] = 0.0
+        self.box = self._boxes()
+        self.cost = np.zeros(self.size)
+        self.cost[self.T] = typical
+        self._sizes = np.abs(self.box).max(axis=1)
+        # dv/ds = T a and dW/ds = T^2 j in units of the velocity limit, and d / T, at typical durations
+        scale = typical[:, None]
+        self.ramp = scale * (task.acceleration / task.velocity)
+        self.bend = scale**2 * (task.jerk / task.velocity)
+        self.distance = task.displacements / task.velocity / scale
+        self.room = task.room / task.velocity[:, None]
+
+    def _boxes(self) -> Array:
+        low, high = self.low, self.high
+        box = np.zeros((self.size, 2))
+        box[self.T] = np.stack([low, high], axis=1)
+        box[self.inverse] = np.stack([1.0 / high * DOWN, 1.0 / low * UP], axis=1)
+        box[self.square] = np.stack([low**2 * DOWN, high**2 * UP], axis=1)
+        box[self.v[1:-1]] = (-1.0, 1.0)
+        box[self.a] = np.stack([self.least_a, self.most_a], axis=-1)
+        most = np.maximum(-self.least_a, self.most_a)
+        for end in (0, 1):
+            reach = most[end : self.K + end] * high[:, None] * UP
+            box[self.W[:, :, end]] = np.stack([-reach, reach], axis=-1)
+        return box
+
+    def fixed(self) -> Rows:
+        """Rows (5) and (6)."""
+        low, high, one = self.low, self.high, np.ones(self.K)
+        share = list(self.typical[:, None] / self.task.horizon)
+        total = self._rows([np.array([column]) for column in self.T], share, np.ones(1))
+        columns = [self.inverse, self.T]
+        secants = self._rows(columns, [one, 1.0 / (low * high)], 1.0 / low + 1.0 / high).normal()
+        return Rows.joined([total, secants])
+
+    def of(self, cuts: Cuts) -> Rows:
+        """One row for each cut, in their order."""
+        blocks, order = [], []
+        for kind in np.unique(cuts.kind):
+            which = np.flatnonzero(cuts.kind == kind)
+            blocks.append(self._of_kind(int(kind), cuts[which]))
+            order.append(which)
+        rows = Rows.joined(blocks)
+        back = np.argsort(np.concatenate(order))
+        return Rows(rows.matrix[back], rows.upper[back])
+
+    def _of_kind(self, kind: int, cuts: Cuts) -> Rows:
+        k, j, sign = cuts.segment, cuts.joint, cuts.sign
+        one = np.ones(len(k))
+        if kind in (TANGENT, HULL):
+            t = np.clip(cuts.at[:, 0] / self.typical[k], self.low[k], self.high[k])
+            if kind == TANGENT:
+                rows = self._rows([self.T[k], self.inverse[k]], [-1.0 / t**2, -one], -2.0 / t)
+                return rows.normal()
+            h = self.high[k]
+            columns = [self.square[k], self.T[k], self.inverse[k]]
+            a = [one, -(h + 2.0 * t), -h * t**2]
+            return self._rows(columns, a, -(2.0 * h * t + t**2)).normal()
+        if kind in (PRODUCT_AT_START, PRODUCT_AT_END):
+            end = int(kind == PRODUCT_AT_END)
+            t, e, side = self.corner(cuts, end)
+            columns = [self.W[k, j, end], self.a[k + end, j], self.T[k]]
+            return self._rows(columns, [-side, side * t, side * e], side * t * e)
+        ramp, bend = self.ramp[k, j], self.bend[k, j]
+        limited = self.task.has_jerk[j]
+        if kind in (PEAK_AT_START, PEAK_AT_END):
+            _require(limited)
+            end = int(kind == PEAK_AT_END)
+            c = cuts.at[:, 0] * self.typical[k] / self.task.acceleration[j]
+            share = ramp**2 / bend
+            columns = [self.v[k + end, j], self.W[k, j, end], self.square[k]]
+            return self._rows(columns, [sign, share * c, -0.5 * share * c**2], one)
+        if kind in (STOP_AT_START, STOP_AT_END):
+            end = int(kind == STOP_AT_END)
+            c_v, c_W, c_A, c_J = stop_coefficients(cuts.at[:, :2])
+            # time turned: W changes its sign, and the joint comes from where it would go
+            c_W = -c_W if end else c_W
+            _require(limited | (c_J == 0.0))
+            room = self.room[k + end, j, ((sign > 0.0) != bool(end)).astype(int)] / self.typical[k]
+            columns = [
+                self.v[k + end, j],
+                self.W[k, j, end],
+                self.inverse[k],
+                self.T[k],
+                self.square[k],
+            ]
+            a = [sign * c_v, sign * c_W * ramp, -room, -c_A * ramp, -c_J * bend]
+            return self._rows(columns, a, np.zeros(len(k)))
+        v0, v1, W0, W1 = self.v[k, j], self.v[k + 1, j], self.W[k, j, 0], self.W[k, j, 1]
+        T, square = self.T[k], self.square[k]
+        if kind == SPEED:
+            c_W0, c_W1, c_A, c_J = speed_coefficients(cuts.at[:, :2])
+            _require(limited | (c_J == 0.0))
+            a = [sign, -sign, -sign * c_W0 * ramp, -sign * c_W1 * ramp, -c_A * ramp, -c_J * bend]
+            return self._rows([v1, v0, W0, W1, T, square], a, np.zeros(len(k)))
+        c_v0, c_W0, c_v1, c_W1, c_V, c_A, c_J = distance_coefficients(cuts.at, kind == CRUISE)
+        _require(limited | (c_J == 0.0))
+        a = [sign * self.distance[k, j], -sign * c_v0, -sign * c_v1, -sign * c_W0 * ramp]
+        a += [-sign * c_W1 * ramp, -c_A * ramp, -c_J * bend]
+        return self._rows([self.inverse[k], v0, v1, W0, W1, T, square], a, c_V)
+
+    def corner(self, cuts: Cuts, end: int) -> tuple[Array, Array, Array]:
+        """The bounds t, e of a product (9) and the sign of the row, each (m,)."""
+        k, j, corner = cuts.segment, cuts.joint, cuts.at[:, 0]
+        t = np.where(corner % 2 == 0, self.low[k], self.high[k])
+        upper = (corner == 1) | (corner == 2)
+        e = np.where(upper, self.most_a[k + end, j], self.least_a[k + end, j])
+        return t, e, np.where(corner < 2, 1.0, -1.0)
+
+    def _rows(self, columns: list[Indices], coefficients: list[Array], upper: Array) -> Rows:
+        """Rows with the allowance for rounding; columns and coefficients: w of (m,)."""
+        where, a = np.stack(columns, axis=1), np.stack(coefficients, axis=1)
+        size = (np.abs(a) * self._sizes[where]).sum(axis=1) + np.abs(upper)
+        starts = np.arange(0, a.size + 1, a.shape[1])
+        matrix = csr_array((a.ravel(), where.ravel(), starts), shape=(len(upper), self.size))
+        return Rows(matrix, upper + _ALLOWANCE * size)
+
+
+def _require(sound: NDArray[np.bool_]) -> None:
+    """Rows that speak of a jerk need a limit of it."""
+    if not sound.all():
+        raise ValueError("a row needs a jerk limit where there is none")

@@ -1,0 +1,115 @@
+"""Rows that cut a point off: the deepest of each kind, for every segment, joint and sign."""
+
+from __future__ import annotations
+
+import numpy as np
+
+from formulations.problem.arrays import Array, Indices
+from formulations.proofs.every_motion.relaxation.cuts import (
+    CRUISE,
+    DISTANCE,
+    HULL,
+    PEAK_AT_END,
+    PEAK_AT_START,
+    PRODUCT_AT_END,
+    PRODUCT_AT_START,
+    SPEED,
+    STOP_AT_END,
+    STOP_AT_START,
+    TANGENT,
+    Cuts,
+)
+from formulations.proofs.every_motion.relaxation.rows import Frame
+from formulations.proofs.every_motion.relaxation.switches import (
+    farthest,
+    farthest_without_jerk,
+    fastest,
+    soonest_stop,
+)
+
+
+def separate(frame: Frame, x: Array, tolerance: float) -> Cuts:
+    """Cuts that x (size,) violates by more than ``tolerance``, in units of the variables."""
+    proposed = [_durations(frame, x), *_products(frame), *_peaks(frame, x)]
+    for sign in (1.0, -1.0):
+        proposed += [*_reach(frame, x, sign), *_stops(frame, x, sign)]
+    cuts = Cuts.joined(proposed)
+    rows = frame.of(cuts)
+    return cuts[rows.matrix @ x - rows.upper > tolerance]
+
+
+def _durations(frame: Frame, x: Array) -> Cuts:
+    """(7) at T itself; (8) where it is least: t = (h - T) / (h / T - 1)."""
+    T, inverse, h = x[frame.T], x[frame.inverse], frame.high
+    t = (h - T) / np.maximum(h * inverse - 1.0, 1e-300)
+    k = np.arange(frame.K)
+    at = np.concatenate([T, np.clip(t, frame.low, h)]) * np.tile(frame.typical, 2)
+    return Cuts.of(np.repeat([TANGENT, HULL], frame.K), np.tile(k, 2), at)
+
+
+def _products(frame: Frame) -> list[Cuts]:
+    """(9) in all four corners, wherever it is not plain: at the ends of the motion a = 0."""
+    joints = np.flatnonzero(frame.task.has_jerk)
+    found = []
+    for end, kind in enumerate((PRODUCT_AT_START, PRODUCT_AT_END)):
+        k, j = _grid(frame.K, joints)
+        inner = (k + end > 0) & (k + end < frame.K)
+        k, j = np.tile(k[inner], 4), np.tile(j[inner], 4)
+        found.append(Cuts.of(kind, k, np.repeat(np.arange(4.0), inner.sum()), j))
+    return found
+
+
+def _peaks(frame: Frame, x: Array) -> list[Cuts]:
+    """(10) at the ratio W / T^2 itself."""
+    joints = np.flatnonzero(frame.task.has_jerk)
+    found = []
+    for end, kind in enumerate((PEAK_AT_START, PEAK_AT_END)):
+        k, j = _grid(frame.K, joints)
+        unit = frame.task.acceleration[j] / frame.typical[k]
+        at = x[frame.W[k, j, end]] / x[frame.square[k]] * unit
+        found.append(Cuts.of(kind, k, at, j, np.sign(x[frame.v[k + end, j]])))
+    return found
+
+
+def _reach(frame: Frame, x: Array, sign: float) -> list[Cuts]:
+    """(1) and (2) at the switches of the motion that goes farthest, or gains most speed."""
+    task = frame.task
+    found = []
+    for limited in (True, False):
+        k, j = _grid(frame.K, np.flatnonzero(task.has_jerk == limited))
+        if not len(k):
+            continue
+        ramp, J = frame.ramp[k, j], frame.bend[k, j] * x[frame.square[k]]
+        v0, v1 = sign * x[frame.v[k, j]], sign * x[frame.v[k + 1, j]]
+        W0, W1 = (sign * ramp * x[frame.W[k, j, end]] for end in (0, 1))
+        A = np.maximum(ramp * x[frame.T[k]], np.maximum(np.abs(W0), np.abs(W1)))
+        top = np.ones_like(A)
+        if limited:
+            six, cruises = farthest(v0, W0, v1, W1, top, A, J)
+            two = fastest(W0, W1, A, J)
+        else:
+            six, cruises = farthest_without_jerk(v0, v1, top, A)
+            two = np.stack([0.0 * A, top], axis=1)
+        found.append(Cuts.of(np.where(cruises, CRUISE, DISTANCE), k, six, j, sign))
+        found.append(Cuts.of(SPEED, k, two, j, sign))
+    return found
+
+
+def _stops(frame: Frame, x: Array, sign: float) -> list[Cuts]:
+    """(3) at the switches of the soonest stop, where there is a position limit."""
+    found = []
+    jerk = np.where(frame.task.has_jerk, frame.bend, np.inf) * x[frame.square][:, None]
+    for end, kind in enumerate((STOP_AT_START, STOP_AT_END)):
+        side = int((sign > 0.0) != bool(end))
+        room = frame.room[end : frame.K + end, :, side]
+        k, j = np.nonzero(np.isfinite(room))
+        turned = -1.0 if end else 1.0
+        v, W = sign * x[frame.v[k + end, j]], turned * sign * x[frame.W[k, j, end]]
+        A = np.maximum(frame.ramp[k, j] * x[frame.T[k]], 1e-300)
+        two = soonest_stop(v, W * frame.ramp[k, j], A, jerk[k, j])
+        found.append(Cuts.of(kind, k, two, j, sign))
+    return found
+
+
+def _grid(K: int, joints: Indices) -> tuple[Indices, Indices]:
+    return np.repeat(np.arange(K), len(joints)), np.tile(joints, K)

@@ -1,0 +1,114 @@
+"""The motion that goes farthest in one segment: where its jerk switches.
+
+One joint from (v0, W0) to (v1, W1) in unit time, |v| <= V, |W| <= A, |dW/ds| <= J. Raising W as fast
+and lowering it as late as the ends allow puts the largest mean of v at
+
+    W(s) = max(min(W0 + J s, A, J (c - s)), -A, W1 - J (1 - s))                                  (4)
+
+with the one c that ends at v1; if v would pass V, each end reaches V by itself and the joint cruises.
+
+Nothing rests on these numbers: every set of switches makes valid inequalities (``reach``), the right
+ones make those that cut deepest.
+"""
+
+from __future__ import annotations
+
+import numpy as np
+
+from formulations.problem.arrays import Array, Truths
+
+_STEPS = 12  # for a cut; a motion that is to end as it should takes more
+
+
+def farthest(
+    v0: Array, W0: Array, v1: Array, W1: Array, V: Array, A: Array, J: Array, steps: int = _STEPS
+) -> tuple[Array, Truths]:
+    """Switches (m, 6) in [0, 1], ascending, and whether there is a piece at top speed, (m,).
+
+    All arguments (m,). Where the ends cannot meet in unit time, the nearest c.
+    """
+    c = _end_speed_met(v1 - v0, W0, W1, A, J, steps)
+    s1, s2, s5, s6 = _corners(c, W0, W1, A, J)
+    peak = v0 + _gains(c, W0, W1, A, J)[0]
+    start = _to_top_speed(v0, W0, V, A, J)
+    end = [1.0 - s for s in _to_top_speed(v1, -W1, V, A, J)]
+    cruises = (peak > V) & (c > 0.0) & (c < 1.0) & (start[2] <= end[2])
+    six = np.where(cruises, [*start, *end[::-1]], [s1, s2, s5, s2, s5, s6])
+    six = np.where(np.isfinite(six), six, 0.5).clip(0.0, 1.0).T
+    plain = np.maximum.accumulate(six[:, [0, 1, 4, 5]], axis=1)[:, [0, 1, 1, 2, 2, 3]]
+    return np.where(cruises[:, None], np.maximum.accumulate(six, axis=1), plain), cruises
+
+
+def fastest(W0: Array, W1: Array, A: Array, J: Array) -> Array:
+    """Switches (m, 2) of the motion that gains most speed: up with J to A, at A, down with J."""
+    up, down = (A - W0) / J, 1.0 - (A - W1) / J
+    middle = 0.5 * (1.0 + (W1 - W0) / J)
+    apart = up <= down
+    two = np.where(apart, [up, down], [middle, middle])
+    two = np.where(np.isfinite(two), two, 0.5).clip(0.0, 1.0).T
+    return np.maximum.accumulate(two, axis=1)
+
+
+def farthest_without_jerk(v0: Array, v1: Array, V: Array, A: Array) -> tuple[Array, Truths]:
+    """The same where the jerk is not limited: accelerate, cruise, brake."""
+    up, down = (V - v0) / A, 1.0 - (V - v1) / A
+    middle = 0.5 * (1.0 + (v1 - v0) / A)
+    cruises = up < down
+    up = np.where(cruises, up, middle).clip(0.0, 1.0)
+    down = np.maximum(np.where(cruises, down, middle).clip(0.0, 1.0), up)
+    zero, one = np.zeros_like(up), np.ones_like(up)
+    return np.stack([zero, up, up, down, down, one], axis=1), cruises
+
+
+def soonest_stop(v0: Array, W0: Array, A: Array, J: Array) -> Array:
+    """Switches (m, 2) of the way to rest: down with J to -A, at -A until v = 0. J infinite: at once."""
+    speed, plain = np.maximum(v0, 0.0), np.isinf(J)
+    J = np.where(plain, 1.0, J)
+    stop, at_limit = (W0 + np.sqrt(W0**2 + 2.0 * J * speed)) / J, (W0 + A) / J
+    left = speed + (W0**2 - A**2) / (2.0 * J)
+    s1 = np.where(plain, 0.0, np.minimum(stop, at_limit))
+    s2 = np.where(stop > at_limit, at_limit + np.maximum(left, 0.0) / A, stop)
+    s2 = np.where(plain, speed / A, s2)
+    return np.maximum.accumulate(np.stack([s1, s2], axis=1).clip(0.0, 1.0), axis=1)
+
+
+def _end_speed_met(gain: Array, W0: Array, W1: Array, A: Array, J: Array, steps: int) -> Array:
+    """The c of (4) that gains as much speed: Newton's method, bisection where it leaves the bracket."""
+    low = W0 / J
+    high = np.maximum(1.0 + W1 / J, low)
+    c = 0.5 * (low + high)
+    for _ in range(steps):
+        s2, s5 = _corners(c, W0, W1, A, J)[1:3]
+        excess = _gains(c, W0, W1, A, J)[1] - gain
+        low, high = np.where(excess < 0.0, c, low), np.where(excess > 0.0, c, high)
+        step = c - excess / np.maximum(J * (s5 - s2), 1e-300)
+        c = np.where((step >= low) & (step <= high), step, 0.5 * (low + high))
+    return c
+
+
+def _corners(c: Array, W0: Array, W1: Array, A: Array, J: Array) -> tuple[Array, Array, Array, Array]:
+    """Where (4) changes its piece: at A from s1 to s2, at -A from s5 to s6."""
+    s1, s2, middle = (A - W0) / J, c - A / J, 0.5 * (c - W0 / J)
+    s1, s2 = np.where(s2 < s1, middle, s1), np.where(s2 < s1, middle, s2)
+    s5, s6, middle = c + A / J, 1.0 - (A + W1) / J, 0.5 * (c + 1.0 - W1 / J)
+    return s1, s2, np.where(s5 > s6, middle, s5), np.where(s5 > s6, middle, s6)
+
+
+def _gains(c: Array, W0: Array, W1: Array, A: Array, J: Array) -> tuple[Array, Array]:
+    """Integral of (4) up to its zero at c, and up to 1."""
+    s1, s2, s5, s6 = _corners(c, W0, W1, A, J)
+    high, low = W0 + J * s1, W1 - J * (1.0 - s6)
+    first = 0.5 * (W0 + high) * s1 + high * (s2 - s1)
+    to_zero = first + 0.5 * high * (c - s2)
+    rest = 0.5 * (high + low) * (s5 - s2) + low * (s6 - s5) + 0.5 * (low + W1) * (1.0 - s6)
+    return to_zero, first + rest
+
+
+def _to_top_speed(v: Array, W: Array, V: Array, A: Array, J: Array) -> list[Array]:
+    """Ends of the pieces of jerk J, 0, -J of the quickest way from (v, W) to (V, 0)."""
+    peak = np.maximum(np.sqrt(np.maximum(J * (V - v) + 0.5 * W * W, 0.0)), np.maximum(W, 0.0))
+    at_limit = peak > A
+    peak = np.minimum(peak, A)
+    hold = np.where(at_limit, (V - v - (A * A - 0.5 * W * W) / J) / A, 0.0)
+    s1 = (peak - W) / J
+    return [s1, s1 + hold, s1 + hold + peak / J]

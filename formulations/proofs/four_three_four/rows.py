@@ -1,0 +1,207 @@
+"""4-3-...-3-4, heuristic: which conditions to pose on a box, and their first-order form.
+
+Nothing rests on it.
+"""
+
+from __future__ import annotations
+
+from typing import Any
+
+import numpy as np
+
+from formulations.compiled import compiled
+from formulations.families.polynomial import _closed_form_roots
+from formulations.proofs.events import copy
+from formulations.proofs.four_three_four.lagrangian import piece_type
+from formulations.proofs.four_three_four.velocities import weights
+from formulations.proofs.rows import JOINT, JUMP, KIND, ORDER, PIECE, PLACE, SCALE, SEGMENT, SIGN, TOTAL
+
+
+@compiled
+def _share_beside(j: int, i: int, side: int, d: Any, c: Any, v: Any, n: int) -> float:
+    """S_i at c: what the segment beside the open one adds to knot i's row (side 0: the one before)."""
+    m = i - 1 + side
+    wr, pr, wl, pl = weights(m, n)
+    w, p = (wl, pl) if side == 0 else (wr, pr)
+    other = i - 1 if side == 0 else i + 1
+    return c[m] * (w * v[j, i] + 2.0 * v[j, other] - p * d[m, j] * c[m])
+
+
+@compiled
+def _places(order: int, k: int, n: int, value: Any, is_open: Any, places: Any, work: Any) -> int:
+    """Where derivative ``order`` of piece k, the polynomial value, can be extreme; returns the number.
+
+    A knot belongs to one piece, but for the jerk, which jumps, and beside an open piece, whose row is
+    slack.
+    """
+    kind = piece_type(k, n)
+    top = (3 if kind == 1 else 4) - order
+    found = 0
+    if order > 0 and (k > 0 or order == 3):
+        places[0] = 0.0
+        found = 1
+    if (order == 3 and kind != 1) or (0 < order < 3 and k + 1 < n and is_open[k + 1]):
+        places[found] = 1.0
+        found += 1
+    if top == 4:
+        # from the resting end the slope is 3 a z^2 + 4 b z^3
+        if kind == 0:
+            a, b = value[3], value[4]
+        else:
+            a, b = -(value[3] + 4.0 * value[4]), value[4]
+        z = -0.75 * a / b if b != 0.0 else -1.0
+        if 0.0 < z < 1.0:
+            places[found] = z if kind == 0 else 1.0 - z
+            found += 1
+    elif top >= 2:
+        for i in range(top):
+            work[i] = (i + 1) * value[i + 1]
+        found += _closed_form_roots(work, top - 1, places[found:])
+    return found
+
+
+@compiled
+def candidates(rows: Any, d: Any, data: Any, c: Any, is_open: Any, vc: Any, n: int) -> int:
+    """Rows worth posing at x = c, where the velocities are vc: extremes of every limited quantity of
+    every piece, jumps across open segments, and the total. Returns their number.
+    """
+    limit, room_lo, room_hi, basis = data[2], data[3], data[4], data[5]
+    value, places, work = np.zeros(5), np.zeros(8), np.zeros(5)
+    count = 0
+    for j in range(d.shape[1]):
+        for k in range(n):
+            kind = piece_type(k, n)
+            for order in range(4):
+                if order == 0:
+                    if is_open[k] or (room_lo[k, j] == np.inf and room_hi[k, j] == np.inf):
+                        continue
+                elif limit[order - 1, j] == np.inf:
+                    continue
+                for i in range(5):
+                    value[i] = (
+                        basis[order, kind, 0, i] * d[k, j] * c[k]
+                        + basis[order, kind, 1, i] * vc[j, k]
+                        + basis[order, kind, 2, i] * vc[j, k + 1]
+                    )
+                for e in range(_places(order, k, n, value, is_open, places, work)):
+                    s = places[e]
+                    y = value[4]
+                    for i in range(3, -1, -1):
+                        y = y * s + value[i]
+                    sign = 1.0 if y >= 0.0 else -1.0
+                    if order == 0:
+                        room = room_hi[k, j] if sign > 0.0 else room_lo[k, j]
+                        if room == np.inf:
+                            continue
+                        size = max(room, 1e-3) * c[k]
+                    else:
+                        size = limit[order - 1, j] / c[k] ** (order - 1)
+                        if abs(y) < 0.1 * size:
+                            continue
+                    rows[count, KIND], rows[count, JOINT], rows[count, SEGMENT] = PIECE, j, k
+                    rows[count, ORDER], rows[count, PLACE] = order, s
+                    rows[count, SIGN], rows[count, SCALE] = sign, size
+                    count += 1
+    for k in range(n):
+        if not is_open[k] or (k > 0 and is_open[k - 1]) or (k + 1 < n and is_open[k + 1]):
+            continue
+        for j in range(d.shape[1]):
+            if limit[2, j] == np.inf:
+                continue
+            y = 0.0
+            for side in range(2):
+                if 0 < k + side < n:
+                    y += _share_beside(j, k + side, side, d, c, vc, n)
+            rows[count, KIND], rows[count, JOINT], rows[count, SEGMENT] = JUMP, j, k
+            rows[count, ORDER], rows[count, PLACE] = 3, 0.0
+            rows[count, SIGN] = 1.0 if y >= 0.0 else -1.0
+            rows[count, SCALE] = abs(y) + limit[2, j] / c[k] + 1e-300
+            count += 1
+    rows[count, KIND], rows[count, SCALE] = TOTAL, 0.0
+    for k in range(n):
+        rows[count, SCALE] += 1.0 / c[k]
+    return count + 1
+
+
+@compiled
+def linear(
+    rows: Any, count: int, d: Any, data: Any, n: int, L: float,
+    c: Any, lo: Any, half: Any, is_open: Any, vc: Any, G: Any, R: Any, a: Any, g: Any,
+) -> int:  # fmt: skip
+    """First-order form about c of half-widths half: rows a_i + g_i . e <= 0 for e in [-1, 1]^n.
+
+    v = vc + G (x - c) to within R. Drops rows that cannot bite on the box; returns how many are left.
+    """
+    limit, room_lo, room_hi, basis = data[2], data[3], data[4], data[5]
+    kept = 0
+    for r in range(count):
+        size = rows[r, SCALE]
+        for k in range(n):
+            g[kept, k] = 0.0
+        if rows[r, KIND] == TOTAL:
+            y = -L
+            for k in range(n):
+                if not is_open[k]:
+                    y += 1.0 / c[k]
+                    g[kept, k] = -1.0 / (c[k] * c[k])
+        elif rows[r, KIND] == JUMP:
+            j, k, sign = int(rows[r, JOINT]), int(rows[r, SEGMENT]), rows[r, SIGN]
+            y = -limit[2, j] / lo[k]
+            for side in range(2):
+                i = k + side
+                if not 0 < i < n:
+                    continue
+                m = i - 1 + side
+                wr, pr, wl, pl = weights(m, n)
+                w, p = (wl, pl) if side == 0 else (wr, pr)
+                other = i - 1 if side == 0 else i + 1
+                y += sign * _share_beside(j, i, side, d, c, vc, n)
+                y -= c[m] * (w * R[j, i] + 2.0 * R[j, other])
+                g[kept, m] += sign * (w * vc[j, i] + 2.0 * vc[j, other] - 2.0 * p * d[m, j] * c[m])
+                for q in range(n):
+                    g[kept, q] += sign * c[m] * (w * G[j, i, q] + 2.0 * G[j, other, q])
+        else:
+            j, k, order = int(rows[r, JOINT]), int(rows[r, SEGMENT]), int(rows[r, ORDER])
+            s, sign = rows[r, PLACE], rows[r, SIGN]
+            kind = piece_type(k, n)
+            y = 0.0
+            for term in range(3):
+                w = 0.0
+                for p in range(4 - order, -1, -1):
+                    w = w * s + basis[order, kind, term, p]
+                w *= sign
+                if term == 0:
+                    w *= d[k, j]
+                    if order == 0:
+                        w -= room_hi[k, j] if sign > 0.0 else room_lo[k, j]
+                    y += w * c[k]
+                    g[kept, k] += w
+                elif 0 < k + term - 1 < n:
+                    i = k + term - 1
+                    y += w * vc[j, i] - abs(w) * R[j, i]
+                    for m in range(n):
+                        g[kept, m] += w * G[j, i, m]
+            x, e = c[k], half[k]
+            if order == 0:
+                pass
+            elif order == 1:
+                y -= limit[0, j]
+            elif is_open[k]:
+                y -= limit[order - 1, j] / lo[k] ** (order - 1)
+            elif order == 2:
+                y -= limit[1, j] * (1.0 / x + e * e / (x * x * lo[k]))
+                g[kept, k] += limit[1, j] / (x * x)
+            elif order == 3:
+                bend = 2.0 / (x * x * x * lo[k]) + 1.0 / (x * lo[k]) ** 2
+                y -= limit[2, j] * (1.0 / (x * x) + e * e * bend)
+                g[kept, k] += 2.0 * limit[2, j] / (x * x * x)
+        a[kept] = y / size
+        most = a[kept]
+        for k in range(n):
+            g[kept, k] *= half[k] / size
+            most += abs(g[kept, k])
+        if most > 0.0:
+            if kept != r:
+                copy(rows[kept], rows[r])
+            kept += 1
+    return kept

@@ -1,0 +1,1 @@
+"""Certified lower bound of quintic splines: conditions that form a chain, on a grid of cells."""

@@ -1,0 +1,1 @@
+"""The driver that runs, counts and judges every algorithm."""

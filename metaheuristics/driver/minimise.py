@@ -1,0 +1,158 @@
+"""The driver: one box, one budget, one archive, the same for every algorithm.
+
+An algorithm is a generator function.  It yields a whole population ``x`` (n, dim) and is sent back
+its fitness (n,); +inf means infeasible.  It keeps no score: the answer is the driver's archive of
+what was evaluated, so no algorithm can report a point it did not pay for.
+"""
+
+from __future__ import annotations
+
+import inspect
+from collections.abc import Callable
+from time import perf_counter
+from typing import TypeVar
+
+import numpy as np
+from numpy.typing import ArrayLike
+
+from metaheuristics.driver import checks
+from metaheuristics.driver.archive import Archive, Result
+from metaheuristics.driver.global_random import global_random
+from metaheuristics.driver.task import (
+    Array,
+    BudgetSpent,
+    Fault,
+    Moves,
+    Objective,
+    Search,
+    Status,
+    Task,
+    one_line,
+)
+
+T = TypeVar("T")
+
+
+def minimise(
+    algorithm: Search,
+    f: Objective,
+    lo: ArrayLike,
+    hi: ArrayLike,
+    *,
+    budget: int,
+    seed: int | np.random.SeedSequence,
+    **parameters: object,
+) -> Result:
+    """Run an algorithm on f over the box [lo, hi] for exactly ``budget`` evaluations.
+
+    ``lo``, ``hi`` (dim,), finite, lo < hi.  ``f`` maps (n, dim) to (n,).  A batch larger than what
+    is left of the budget is evaluated as far as it fits, row by row from the first.  The same
+    algorithm, f, box, budget, seed and parameters give the same result, times apart.
+
+    Misbehaviour of the algorithm ends the run with a `Status` and a note, and keeps what was
+    found.  Raises `TaskError` for a bad box, budget or seed, `ObjectiveError` for what f may not
+    return; an exception inside f, or an unknown parameter (TypeError), passes through.
+    """
+    lower, upper = checks.box(lo, hi)
+    budget = checks.budget(budget)
+    archive = Archive()
+    task = Task(
+        lo=checks.read_only(lower),
+        hi=checks.read_only(upper),
+        rng=checks.rng(seed),
+        budget=budget,
+        _used=lambda: archive.evaluations,
+    )
+    inspect.signature(algorithm).bind(task, **parameters)  # a TypeError here is the caller's
+    run = _Run(archive, f, lower, upper, budget)
+    with global_random(task.rng) as drawn:
+        status, note = run.judged(lambda: algorithm(task, **parameters))
+    if status is Status.ok and not (np.array_equal(task.lo, lower) and np.array_equal(task.hi, upper)):
+        status, note = Status.changed_input, "wrote to the box"
+    if status is Status.ok and drawn():
+        status, note = Status.global_random, "drew from numpy.random or random, not from task.rng"
+    if status is Status.ok and archive.x is None:
+        status, note = Status.no_feasible_point, f"none of {budget} values was finite"
+    return archive.result(status, note, run.seconds_algorithm, run.seconds_objective)
+
+
+class _Run:
+    """One algorithm at work: every entry into it and into f is timed, what comes back is checked."""
+
+    def __init__(self, archive: Archive, f: Objective, lo: Array, hi: Array, budget: int) -> None:
+        self.archive = archive
+        self.f, self.lo, self.hi, self.budget = f, lo, hi, budget
+        self.seconds_algorithm = self.seconds_objective = 0.0
+
+    def judged(self, start: Callable[[], Moves]) -> tuple[Status, str]:
+        """Run until the budget is spent or the algorithm commits a fault; status and note."""
+        moves: Moves | None = None
+        status, note = Status.ok, ""
+        try:
+            moves = self._guarded(start)
+            self._steps(moves)
+        except Fault as fault:
+            status, note = fault.status, fault.note
+        finally:  # lets an adapter clean up, whatever passes through
+            if moves is not None:
+                try:
+                    self._guarded(lambda: moves.close())
+                except Fault as fault:
+                    if status is Status.ok:
+                        status, note = fault.status, fault.note
+        if status is Status.ok and self.archive.evaluations < self.budget:
+            return self._early()
+        return status, note
+
+    def _steps(self, moves: Moves) -> None:
+        """Ask, evaluate, tell."""
+        yielded: object = self._guarded(lambda: next(moves))
+        while True:
+            left = self.budget - self.archive.evaluations
+            x = checks.population(yielded, self.lo, self.hi)[:left]
+            started = perf_counter()
+            returned = self.f(x.copy())
+            self.seconds_objective += perf_counter() - started
+            fitness = checks.fitness(returned, len(x))
+            self.archive.add(x, fitness)
+            told = fitness.copy()
+            if len(x) == left:
+                self._farewell(moves, told)
+            else:
+                yielded = self._guarded(lambda told=told: moves.send(told))  # type: ignore[misc]
+            if not np.array_equal(told, fitness):
+                raise Fault(Status.changed_input, "wrote to the fitness it was sent")
+            if len(x) == left:
+                return
+
+    def _farewell(self, moves: Moves, fitness: Array) -> None:
+        """Tell the algorithm that its budget is gone; it may return a claim, and nothing else."""
+        spent = BudgetSpent(fitness)
+        try:
+            self._guarded(lambda: moves.throw(spent))
+        except Fault as fault:
+            if fault.__cause__ is spent or fault.status is Status.stopped_early:
+                return
+            raise
+        raise Fault(Status.over_budget, f"asked for more than {self.budget} evaluations")
+
+    def _guarded(self, enter: Callable[[], T]) -> T:
+        """Let the algorithm work until it yields; raises the `Fault` it commits, timed."""
+        started = perf_counter()
+        try:
+            return enter()
+        except StopIteration as end:
+            checks.claim(end.value, self.archive)
+            raise Fault(*self._early()) from None
+        except (Fault, KeyboardInterrupt):
+            raise
+        except SystemExit as error:
+            raise Fault(Status.exited, one_line(error)) from error
+        except BaseException as error:
+            raise Fault(Status.raised, one_line(error)) from error
+        finally:
+            self.seconds_algorithm += perf_counter() - started
+
+    def _early(self) -> tuple[Status, str]:
+        used = self.archive.evaluations
+        return Status.stopped_early, f"returned after {used} of {self.budget} evaluations"

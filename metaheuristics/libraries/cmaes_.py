@@ -1,0 +1,33 @@
+"""CMA-ES with restarts and growing populations (IPOP), by the library cmaes.
+
+Sources: Hansen 2016, "The CMA evolution strategy: a tutorial"; Auger & Hansen 2005 (restarts).  On the
+unit box, from a uniform mean with sigma = 0.3 of it, default population; a restart doubles it.
+"""
+
+from __future__ import annotations
+
+import numpy as np
+
+from metaheuristics.driver.task import Moves, Task
+from metaheuristics.libraries.library import finite, seed_of
+
+
+def cma_es(task: Task, *, sigma: float = 0.3) -> Moves:
+    """CMA-ES, restarted until the budget is gone."""
+    import cmaes  # loads scipy.stats, which takes longer than the rest of the package
+
+    cells = max(task.dim, 2)  # the library wants two; a second one is not used
+    size: int | None = None
+    while True:
+        search = cmaes.CMA(
+            mean=task.rng.random(cells),
+            sigma=sigma,
+            bounds=np.tile([0.0, 1.0], (cells, 1)),
+            seed=seed_of(task),
+            population_size=size,
+        )
+        while not search.should_stop():
+            z = np.array([search.ask() for _ in range(search.population_size)])
+            fitness = yield task.clip(task.lo + (task.hi - task.lo) * z[:, : task.dim])
+            search.tell(list(zip(z, finite(fitness).tolist(), strict=True)))
+        size = 2 * search.population_size

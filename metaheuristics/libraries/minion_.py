@@ -1,0 +1,36 @@
+"""Optimisers of minionpy by name, among them L-SHADE (Tanabe & Fukunaga 2014)."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from typing import Any
+
+import numpy as np
+
+from metaheuristics.driver.bridge import inverted
+from metaheuristics.driver.task import Array, Moves, Task
+from metaheuristics.libraries.library import finite, library, seed_of
+
+
+def lshade(task: Task, *, memory_size: int = 6) -> Moves:
+    """L-SHADE, the library's defaults, told its budget, and no stop by the spread of its points."""
+    return _search(task, "LSHADE", {"memory_size": memory_size, "x_tol": -1.0})
+
+
+def minion(name: str, task: Task) -> Moves:
+    """Any minimiser of minionpy, with its own defaults."""
+    return _search(task, name, None)
+
+
+def _search(task: Task, name: str, options: dict[str, Any] | None) -> Moves:
+    minimiser = getattr(library("minionpy"), name)
+    bounds = list(zip(task.lo.tolist(), task.hi.tolist(), strict=True))
+
+    def call(f: Callable[[Array], Array]) -> None:
+        def objective(x: Any) -> list[float]:
+            return finite(f(task.clip(np.array(x)))).tolist()  # type: ignore[no-any-return]
+
+        seed = seed_of(task)
+        minimiser(objective, bounds, maxevals=task.budget, seed=seed, options=options).optimize()
+
+    return inverted(task, call, endless=True)

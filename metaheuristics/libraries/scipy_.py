@@ -1,0 +1,116 @@
+"""Optimisers of SciPy.
+
+Differential evolution (Storn & Price 1997), dual annealing (Xiang et al. 1997), and from many random
+starts Nelder-Mead (1965) and SLSQP (Kraft 1988, finite differences), the last two on the unit box.
+Each starts anew when it thinks it is done, until the budget is gone.  And the quasi-random points of
+Sobol (1967), scrambled.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Iterator
+
+import numpy as np
+from scipy import optimize
+
+from metaheuristics.driver.bridge import inverted
+from metaheuristics.driver.task import Array, Moves, Task
+from metaheuristics.libraries.library import finite
+
+STEP = 1.5e-8  # of a difference on the unit box: the root of the rounding error
+BLOCK = 1024  # Sobol points are balanced in powers of two
+
+
+def sobol(task: Task, *, population: int = 50) -> Moves:
+    """Yield a scrambled Sobol sequence; batch size does not change the points."""
+    points = _sobol_points(task)
+    while True:
+        z = np.array([next(points) for _ in range(population)])
+        yield task.clip(task.lo + (task.hi - task.lo) * z)
+
+
+def _sobol_points(task: Task) -> Iterator[Array]:
+    from scipy.stats import qmc  # takes longer to load than the rest of the package
+
+    engine = qmc.Sobol(task.dim, rng=task.rng)
+    while True:
+        yield from engine.random(BLOCK)
+
+
+def differential_evolution(
+    task: Task, *, popsize: int = 15, strategy: str = "best1bin", tol: float = 1e-12
+) -> Moves:
+    """DE with the library's own defaults, but whole generations at once, no early stop, no polish."""
+
+    def call(f: Callable[[Array], Array]) -> None:
+        while True:
+            optimize.differential_evolution(
+                lambda x: f(task.clip(x.T)),
+                optimize.Bounds(task.lo, task.hi),
+                strategy=strategy,
+                popsize=popsize,
+                tol=tol,
+                maxiter=task.budget,
+                polish=False,
+                rng=task.rng,
+                updating="deferred",
+                vectorized=True,
+            )
+
+    return inverted(task, call, endless=True)
+
+
+def dual_annealing(task: Task) -> Moves:
+    """Generalised simulated annealing with local searches, the library's own defaults."""
+
+    def call(f: Callable[[Array], Array]) -> None:
+        while True:
+            optimize.dual_annealing(
+                lambda x: float(finite(f(task.clip(x)[None]))[0]),
+                optimize.Bounds(task.lo, task.hi),
+                maxiter=task.budget,
+                maxfun=2 * task.budget,
+                rng=task.rng,
+            )
+
+    return inverted(task, call, endless=True)
+
+
+def nelder_mead(task: Task, *, xatol: float = 1e-10, fatol: float = 1e-12) -> Moves:
+    """Simplices from uniform starts."""
+    return _from_many_starts(
+        task, "Nelder-Mead", {"xatol": xatol, "fatol": fatol, "maxfev": task.budget}
+    )
+
+
+def slsqp(task: Task, *, ftol: float = 1e-12) -> Moves:
+    """Sequential least squares programming from uniform starts; a gradient is one batch."""
+    return _from_many_starts(task, "SLSQP", {"ftol": ftol}, gradient=True)
+
+
+def _from_many_starts(
+    task: Task, method: str, options: dict[str, float], *, gradient: bool = False
+) -> Moves:
+    def call(f: Callable[[Array], Array]) -> None:
+        def unit(z: Array) -> Array:
+            return finite(f(task.clip(task.lo + (task.hi - task.lo) * z)))
+
+        last: dict[bytes, float] = {}  # a gradient starts from the value just found
+
+        def value(z: Array) -> float:
+            last.clear()
+            last[z.tobytes()] = found = float(unit(z[None])[0])
+            return found
+
+        def slope(z: Array) -> Array:
+            base = last[z.tobytes()] if z.tobytes() in last else value(z)
+            step = np.where(z < 0.5, STEP, -STEP)  # away from the nearer wall
+            return np.asarray((unit(z + np.diag(step)) - base) / step)
+
+        bounds = optimize.Bounds(np.zeros(task.dim), np.ones(task.dim))
+        jac = slope if gradient else None
+        while True:
+            start = task.rng.random(task.dim)
+            optimize.minimize(value, start, method=method, jac=jac, bounds=bounds, options=options)
+
+    return inverted(task, call, endless=True)

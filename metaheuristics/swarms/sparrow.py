@@ -1,0 +1,169 @@
+"""The sparrow search algorithm.
+
+Source: Xue & Shen 2020, "A novel swarm intelligence optimization approach: sparrow search algorithm",
+Systems Science & Control Engineering 8(1), 22-34, eq. 3-5; seed paper 002 (Zhou 2025), section 4.1,
+prints them as eq. 8-11.  ("SSA" also names the salp swarm: here it is sparrow.)
+
+What 002 misprints: i is the rank by fitness, not the generation; R is the alarm value R2 ~ U(0, 1), not
+a fitness; L is a row of ones; A+ is a pseudo-inverse, not a random number.  `sparrow_printed` takes
+eq. 8 and 10 to the letter instead.
+
+A generation is three batches, all evaluated, and a sparrow keeps what is better: producers, then
+scroungers around the best producer as it now is, then scouts from where they now are.  Producer moves
+scale x itself, so the flock is drawn towards x = 0.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from typing import TypeAlias
+
+import numpy as np
+from numpy.typing import NDArray
+
+from metaheuristics.driver.task import Array, Moves, Task
+
+Rows: TypeAlias = NDArray[np.intp]
+Combine: TypeAlias = Callable[[Rows, Array], Array]
+"""(rows, sparrow moves (m, dim) in the box) -> what is done instead (m, dim)."""
+
+EPSILON = 1e-50  # of eq. 5
+LARGEST = 700.0  # exponent: more would overflow
+
+
+class Flock:
+    """Positions x (n, dim) and their fitness (n,), +inf until evaluated."""
+
+    def __init__(self, x: Array) -> None:
+        self.x = x
+        self.fitness = np.full(len(x), np.inf)
+
+    def rank(self) -> None:
+        """Sort, best first."""
+        order = self.fitness.argsort(kind="stable")
+        self.x, self.fitness = self.x[order], self.fitness[order]
+
+    def keep(self, rows: Rows, moved: Array, fitness: Array) -> None:
+        """Take moved (m, dim) with its fitness (m,) in these rows where it is better."""
+        better = fitness < self.fitness[rows]
+        taken = rows[better]
+        self.x[taken], self.fitness[taken] = moved[better], fitness[better]
+
+
+def sparrow(
+    task: Task,
+    *,
+    population: int = 50,
+    producers: float = 0.2,
+    scouts: float = 0.1,
+    safety: float = 0.8,
+) -> Moves:
+    """Sparrow search; ``producers`` and ``scouts`` are shares, ``safety`` is the ST of the paper."""
+    flock = Flock(task.sample(population))
+    yield from forage(task, flock, producers, scouts, safety)
+
+
+def sparrow_printed(
+    task: Task, *, population: int = 50, producers: float = 0.2, scouts: float = 0.1
+) -> Moves:
+    """Sparrow search with 002's eq. 8 and 10 to the letter.
+
+    The standard M that a fitness R is measured by is open: the flock's median.
+    """
+    flock = Flock(task.sample(population))
+    yield from forage(task, flock, producers, scouts, safety=None)
+
+
+def forage(
+    task: Task,
+    flock: Flock,
+    producers: float,
+    scouts: float,
+    safety: float | None,
+    combine: Combine = lambda rows, moved: moved,
+    after: Callable[[], None] = lambda: None,
+) -> Moves:
+    """Fly generation after generation; ``after`` is called at the end of each, and of the start.
+
+    safety None: the printed letter.
+    """
+    n = len(flock.x)
+    n_producers, n_scouts = max(1, round(producers * n)), max(1, round(scouts * n))
+    generations = max(1.0, (task.budget - n) / (n + n_scouts))
+    flock.fitness[:] = yield flock.x
+    after()
+    t = 0
+    while True:
+        t += 1
+        flock.rank()
+        every = np.arange(n)
+        if safety is None:
+            moves = _produced_printed(task, flock, every[:n_producers], t / generations)
+        else:
+            moves = _produced(task, flock, every[:n_producers], generations, safety)
+        yield from _batch(task, flock, every[:n_producers], moves, combine)
+        if n > n_producers:
+            rows = every[n_producers:]
+            moves = _scrounged(task, flock, rows, n_producers, printed=safety is None)
+            yield from _batch(task, flock, rows, moves, combine)
+        rows = task.rng.permutation(n)[:n_scouts]
+        yield from _batch(task, flock, rows, _scouted(task, flock, rows), combine)
+        after()
+
+
+def _batch(task: Task, flock: Flock, rows: Rows, moves: Array, combine: Combine) -> Moves:
+    moved = combine(rows, task.clip(moves))
+    flock.keep(rows, moved, (yield moved))
+
+
+def _produced(task: Task, flock: Flock, rows: Rows, generations: float, safety: float) -> Array:
+    """Producers' moves; alpha and Q are one number per sparrow, R2 one per generation."""
+    x = flock.x[rows]
+    if task.rng.random() < safety:
+        alpha = 1 - task.rng.random((len(rows), 1))  # in (0, 1]
+        return np.asarray(x * np.exp(-(rows[:, None] + 1) / (alpha * generations)))  # (3); 002 (8)
+    Q = task.rng.standard_normal((len(rows), 1))
+    return np.asarray(x + Q)  # (3): L is a row of ones; 002 (9)
+
+
+def _produced_printed(task: Task, flock: Flock, rows: Rows, t: float) -> Array:
+    """002 (8)-(9) to the letter: t, generation / generations, for i / iter_max; R is the fitness."""
+    x, R = flock.x[rows], flock.fitness[rows, None]
+    alpha = 1 - task.rng.random((len(rows), 1))
+    Q = task.rng.standard_normal((len(rows), 1))
+    exponent = -t * np.where(np.isfinite(R), R, 0.0) / alpha
+    shrunk = x * np.exp(np.minimum(exponent, LARGEST))  # (8)
+    return np.where(np.median(flock.fitness) > R, shrunk, x + Q)  # (9)
+
+
+def _scrounged(task: Task, flock: Flock, rows: Rows, n_producers: int, *, printed: bool) -> Array:
+    """Scroungers' moves around the best producer; Q is one number per sparrow."""
+    n, dim = flock.x.shape
+    x = flock.x[rows]
+    best = flock.x[flock.fitness[:n_producers].argmin()]
+    worst = flock.x[flock.fitness.argmax()]
+    rank = rows[:, None] + 1
+    Q = task.rng.standard_normal((len(rows), 1))
+    with np.errstate(over="ignore"):
+        hungry = Q * np.exp((worst - x) / rank**2)  # (4); 002 (10)
+    if printed:
+        near = best + np.abs(x - best) * task.rng.random(x.shape)  # 002 (10): A+ "a random number"
+    else:
+        A = 2.0 * task.rng.integers(2, size=x.shape) - 1
+        # A+ = A^T (A A^T)^-1 = A^T / dim: one number for all coordinates
+        near = best + (np.abs(x - best) * A).sum(axis=1, keepdims=True) / dim  # (4)
+    return np.asarray(np.where(rank > n / 2, hungry, near))
+
+
+def _scouted(task: Task, flock: Flock, rows: Rows) -> Array:
+    """Scouts' moves; K is one number per sparrow, beta one per coordinate."""
+    x, fitness = flock.x[rows], flock.fitness[rows, None]
+    best, worst = flock.fitness.argmin(), flock.fitness.argmax()
+    beta = task.rng.standard_normal(x.shape)
+    K = 2 * task.rng.random((len(rows), 1)) - 1
+    to_best = flock.x[best] + beta * np.abs(x - flock.x[best])  # (5); 002 (11)
+    f_worst = flock.fitness[worst]
+    gap = np.subtract(fitness, f_worst, out=np.zeros_like(fitness), where=fitness < f_worst) + EPSILON
+    with np.errstate(over="ignore"):
+        away = x + K * (np.abs(x - flock.x[worst]) / gap)  # (5); 002 (11)
+    return np.asarray(np.where(fitness > flock.fitness[best], to_best, away))

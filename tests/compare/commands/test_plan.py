@@ -1,0 +1,58 @@
+"""The planner's command: what is asked for is kept, the file holds the motion, misuse is one line."""
+
+from __future__ import annotations
+
+import json
+import sys
+from pathlib import Path
+
+import numpy as np
+import pytest
+
+from compare.commands import plan
+from formulations import InputError, load
+from formulations.motion.motion_file import read_motion
+
+
+def run(monkeypatch: pytest.MonkeyPatch, *arguments: str) -> int:
+    monkeypatch.setattr(sys, "argv", ["plan", *arguments])
+    return plan.main()
+
+
+def test_a_stop_and_a_passage_are_kept_and_the_file_holds_the_motion(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
+) -> None:
+    motion, out = tmp_path / "m.csv", tmp_path / "m.json"
+    arguments = ("ur5", "--stop", "1", "--pass", "2=12.5", "--export", str(motion), "--json", str(out))
+    assert run(monkeypatch, *arguments) == 0
+    data = json.loads(out.read_text())
+    first, second = data["passage_times"][1:3]
+    assert second == pytest.approx(12.5, abs=1e-9)
+    back = read_motion(motion)
+    np.testing.assert_allclose(back.at(first, 1), 0.0, atol=1e-9)
+    np.testing.assert_allclose(back.at(second), load("ur5").waypoints[2], atol=1e-9)
+    assert max(peak["factor"] for peak in data["peaks"]) <= 1.0 + 1e-9
+    assert "verified" in capsys.readouterr().out
+
+
+@pytest.mark.parametrize(
+    ("arguments", "message"),
+    [
+        (("--pass", "2"), "--pass: '2' is not of the form K=T"),
+        (("--pass", "2=soon"), "--pass: '2=soon' is not of the form K=T"),
+        (("--stop", "9"), "waypoint 9"),
+        (("--total", "10"), "conditions.total; the fastest one found passes waypoint 3 at 14.76"),
+        (("--total", "nan"), "nan"),
+        (("--start-velocity", "1,2"), "--start-velocity: expected 6 finite numbers"),
+        (("--end-velocity", "a"), "--end-velocity: 'a' is not a list"),
+        (("--end-velocity", "0,0,0,0,0,9"), "joint 6: 9 rad/s is over the limit"),
+        (("--gap", "0"), "tolerance: 0"),
+    ],
+)
+def test_misuse_is_one_line(
+    arguments: tuple[str, ...], message: str, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    with pytest.raises(InputError) as caught:
+        run(monkeypatch, "ur5", *arguments)
+    assert message in str(caught.value)
+    assert "\n" not in str(caught.value)
