@@ -70,14 +70,12 @@ class Store:
                 old.unlink()
 
     def mend(self) -> None:
-        """Keep what was finished: whole lines, rewritten."""
+        """Drop a last line that was cut short. Each file is replaced whole, in one step."""
         rows, traces = self.rows(), self.traces()
-        commands.write_text(self.rows_file, _line(list(COLUMNS)))
-        commands.write_text(self.traces_file, "")
-        for row in rows:
-            _append(self.rows_file, _line([_text(row[column]) for column in COLUMNS]))
-        for run_key, found in traces.items():
-            _append(self.traces_file, _trace_line(run_key, found))
+        lines = [_line([_text(row[column]) for column in COLUMNS]) for row in rows]
+        commands.write_text(self.rows_file, _line(list(COLUMNS)) + "".join(lines))
+        trace_lines = [_trace_line(run_key, found) for run_key, found in traces.items()]
+        commands.write_text(self.traces_file, "".join(trace_lines))
 
     def add(self, graded: Graded, facts: dict[str, str]) -> None:
         """Write one finished run; its traces first, so that every row has them."""

@@ -348,7 +348,9 @@ def _curves(
     if claimed is not None:
         tc, xc = samples(claimed, joint, order)
         axes.plot(tc, xc * unit, color=VERMILION, lw=0.9, alpha=0.8)
-        over = np.where((xc > high * (1 + 1e-6)) | (xc < low * (1 + 1e-6)), xc, np.nan)
+        # the slack widens the range whatever the signs of its ends
+        slack = 1e-6 * max(abs(limit) for limit in (low, high, 0.0) if np.isfinite(limit))
+        over = np.where((xc > high + slack) | (xc < low - slack), xc, np.nan)
         axes.plot(tc, over * unit, color=VERMILION, lw=3.0)
         extent = max(extent, np.abs(xc).max())
     axes.plot(t, x * unit, color=BLUE, lw=1.4)
