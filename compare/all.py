@@ -6,10 +6,10 @@ import os
 import time
 
 from compare.benchmark import suite
-from compare.benchmark.honest import key_of_paper
+from compare.benchmark.known_times import key_of_paper
 from compare.benchmark.objective import CODINGS
-from compare.benchmark.run import audits, climb, honest, swarm, warm_up, workers
-from compare.benchmark.store import Store
+from compare.benchmark.run import audits, climb, swarm, tabulate_known_times, warm_up, workers
+from compare.benchmark.store import Settings, Store
 from compare.commands import shared as commands
 from compare.report.page import render
 from compare.studies import bias, proofs
@@ -94,12 +94,12 @@ def main() -> int:
     else:
         store.clear()
     budgets = sorted({run.budget for run in runs})
-    settings = {
-        "size": name,
-        "cases": cases,
-        "seeds": max(run.seed for run in runs) + 1,
-        "budget": " or ".join(str(budget) for budget in budgets) + " evaluations",
-    }
+    settings = Settings(
+        size=name,
+        cases=tuple(cases),
+        seeds=max(run.seed for run in runs) + 1,
+        budget=" or ".join(str(budget) for budget in budgets) + " evaluations",
+    )
     store.write_settings(settings)
 
     warm_up(problems)
@@ -108,7 +108,7 @@ def main() -> int:
         if not options.quick:
             audits(pool, sorted({paper for case in cases if (paper := key_of_paper(case))}), store)
         swarm(pool, runs, problems, store)
-        honest(pool, problems, store)
+        tabulate_known_times(pool, problems, store)
         if name in PROOFS and options.cases is None:
             proofs.study(pool, proofs.tasks(*PROOFS[name]), store.folder)
         if name in BIAS and options.cases is None:

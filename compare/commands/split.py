@@ -17,16 +17,17 @@ one share, "family".
 from __future__ import annotations
 
 import sys
+from collections.abc import Mapping
 from dataclasses import asdict, dataclass
 from itertools import pairwise
 from pathlib import Path
-from typing import Any
 
 import matplotlib as mpl
 import matplotlib.pyplot as plt
 from matplotlib.figure import Figure
 
 from compare.benchmark.grade import Run, grade
+from compare.benchmark.ladders import RungRecord, ladder_record
 from compare.benchmark.objective import CODINGS
 from compare.benchmark.statistics import bound_of
 from compare.commands import shared as commands
@@ -66,7 +67,7 @@ class Share:
         return self.high - self.low
 
 
-def split(rungs: dict[str, Any], seconds: float, coding: str) -> list[Share]:
+def split(rungs: Mapping[str, RungRecord], seconds: float, coding: str) -> list[Share]:
     """Shares of a verified time [s] above the certified bound, from the bound up.
 
     rungs: ``Ladder.to_json()["ladder"]``. They add up to ``seconds`` minus ``free_form_lower``. Raises
@@ -88,7 +89,7 @@ def split(rungs: dict[str, Any], seconds: float, coding: str) -> list[Share]:
     return [Share(name, low, high) for (_, low), (name, high) in pairwise(levels)]
 
 
-def path_timing(rungs: dict[str, Any]) -> str | None:
+def path_timing(rungs: Mapping[str, RungRecord]) -> str | None:
     """The rung that is the optimum on the family's own path under all limits, None if there is none."""
     if rungs["copp_family_path"]["seconds"] is not None:
         return "copp_family_path"
@@ -201,16 +202,16 @@ def split_of(
     problem: Problem, swarm: str, codings: list[str], *, seed: int, budget: int, population: int
 ) -> dict[str, list[Share]]:
     """Climb the ladder, run the swarm in each coding, and split what it found; by coding."""
-    climbed = ladder(problem).to_json()
+    climbed = ladder_record(ladder(problem))
     bound, proof = bound_of(climbed)
     splits = {}
     for coding in codings:
         run = Run(problem.name, coding, swarm, seed, budget, population)
         row = grade(run, problem, bound, proof).row
-        if row["seconds"] is None:
-            print(f"{coding}: no verified motion ({row['status']}: {row['note']})", file=sys.stderr)
+        if row.seconds is None:
+            print(f"{coding}: no verified motion ({row.status}: {row.note})", file=sys.stderr)
             continue
-        splits[coding] = split(climbed["ladder"], row["seconds"], coding)
+        splits[coding] = split(climbed["ladder"], row.seconds, coding)
     if not splits:
         raise InputError(f"--swarm: {swarm} found no verified motion in {', '.join(codings)}")
     return splits

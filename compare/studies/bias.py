@@ -21,11 +21,11 @@ import numpy as np
 from matplotlib.figure import Figure
 
 from compare.benchmark import suite
-from compare.benchmark.coordinates import COORDINATES, seen_in
 from compare.benchmark.objective import Objective, search_box
 from compare.benchmark.run import workers
 from compare.commands import shared as commands
 from compare.report.style import BLUE, GREY, ORANGE, PURPLE, VERMILION, styled
+from compare.studies.origin_shift import COORDINATES, seen_in
 from compare.studies.study import collect, finish
 from formulations import CASES, Problem, family_optimum, load
 from formulations.problem.arrays import Array

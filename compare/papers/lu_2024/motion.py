@@ -128,7 +128,7 @@ def make_curves(full: bool) -> dict[str, Any]:
         for family in ("b-spline-5", "quintic"):
             problem = replace(task(family), waypoints=waypoints)
             run = Run(f"z1 drawn from {seed}", "stretched", "pso", 0, 5000, 50)
-            pair[family] = grade(run, problem, None, "none").row["seconds"]
+            pair[family] = grade(run, problem, None, "none").row.seconds
         others.append({"seed": seed, **pair})
     optima = {family: family_optimum(task(family)).seconds for family in ("b-spline-5", "quintic")}
     return {"found": found, "ends": ends, "optima": optima, "others": others}

@@ -7,7 +7,7 @@ from pathlib import Path
 from typing import Any
 
 import pytest
-from test_compare import stored
+from graded_runs import stored
 
 from compare.benchmark import store as store_module
 

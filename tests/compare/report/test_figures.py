@@ -6,7 +6,7 @@ import matplotlib.pyplot as plt
 import numpy as np
 from matplotlib.colors import to_hex
 
-from compare.report.figures import _curves
+from compare.report.figures.motion import _curves
 from compare.report.style import VERMILION
 from formulations import FAMILIES, Limits, Problem, check
 

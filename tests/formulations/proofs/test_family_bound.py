@@ -854,9 +854,9 @@ def test_no_swarm_beats_the_certified_bound(sr4c: FamilyBound) -> None:
     for coding in CODINGS:
         for swarm in ALGORITHMS:
             row = grade(Run("sr4c", coding, swarm, 0, 2000, 20), problem, sr4c.seconds).row
-            if row["seconds"] is not None:
+            if row.seconds is not None:
                 judged += 1
-                assert row["seconds"] >= sr4c.least_verified
+                assert row.seconds >= sr4c.least_verified
     assert judged > 3
 
 
