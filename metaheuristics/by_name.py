@@ -7,7 +7,7 @@ from functools import partial
 from metaheuristics.driver.plug_in import UnknownAlgorithmError, plug_in
 from metaheuristics.entry import Algorithm, defaults
 from metaheuristics.libraries import mealpy_, pymoo_
-from metaheuristics.libraries.library import library
+from metaheuristics.libraries.shared import library
 from metaheuristics.libraries.minion_ import minion
 from metaheuristics.libraries.nevergrad_ import nevergrad
 from metaheuristics.registry import ALGORITHMS, NOT_REPRODUCIBLE

@@ -19,7 +19,8 @@ from typing import Any
 import numpy as np
 
 from metaheuristics.driver.bridge import inverted
-from metaheuristics.driver.task import Array, BudgetSpent, Claim, Moves, Search, Task, one_line
+from metaheuristics.driver.reason import reason
+from metaheuristics.driver.task import Array, BudgetSpent, Claim, Moves, Search, Task
 
 
 class UnknownAlgorithmError(ValueError):
@@ -40,7 +41,7 @@ def plug_in(name: str) -> Search:
         for part in attribute.split("."):
             found = getattr(found, part)
     except Exception as error:  # whatever a foreign module may raise while it loads
-        raise UnknownAlgorithmError(f"{name}: {one_line(error)}") from error
+        raise UnknownAlgorithmError(f"{name}: {reason(error)}") from error
     if not callable(found):
         raise UnknownAlgorithmError(f"{name}: {type(found).__name__} cannot be called")
     return search_of(found)

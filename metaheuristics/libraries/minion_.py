@@ -9,7 +9,7 @@ import numpy as np
 
 from metaheuristics.driver.bridge import inverted
 from metaheuristics.driver.task import Array, Moves, Task
-from metaheuristics.libraries.library import finite, library, seed_of
+from metaheuristics.libraries.shared import finite, library, seed_of
 
 
 def lshade(task: Task, *, memory_size: int = 6) -> Moves:

@@ -5,7 +5,7 @@ from __future__ import annotations
 import numpy as np
 
 from metaheuristics.driver.task import Moves, Task
-from metaheuristics.libraries.library import finite, library, seed_of
+from metaheuristics.libraries.shared import finite, library, seed_of
 
 
 def nevergrad(name: str, task: Task) -> Moves:

@@ -15,7 +15,7 @@ from scipy import optimize
 
 from metaheuristics.driver.bridge import inverted
 from metaheuristics.driver.task import Array, Moves, Task
-from metaheuristics.libraries.library import finite
+from metaheuristics.libraries.shared import finite
 
 STEP = 1.5e-8  # of a difference on the unit box: the root of the rounding error
 BLOCK = 1024  # Sobol points are balanced in powers of two

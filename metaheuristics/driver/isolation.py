@@ -17,7 +17,7 @@ from typing import Any
 
 import numpy as np
 
-from metaheuristics.driver.minimise import minimise
+from metaheuristics.driver.judge import minimise
 from metaheuristics.driver.task import Array, BudgetSpent, Fault, Moves, Search, Status, Task
 
 START = 60.0  # s that a process may take to start; not counted
