@@ -11,7 +11,7 @@ import numpy as np
 from compare.benchmark.objective import CODINGS, Objective, search_box
 from formulations import FAMILIES, Problem, check, longest_segment
 from formulations.problem.arrays import Array
-from metaheuristics import Result, algorithm, apart, minimise
+from metaheuristics import Result, algorithm, minimise
 
 REACHED = 1e-3  # gap below which a swarm in the stretched coding has found its optimum
 
@@ -68,7 +68,7 @@ def grade(run: Run, problem: Problem, bound: float | None, proof: str = "local o
         objectives = [Objective(problem, stretch=run.coding == "stretched")]
     lo, hi = search_box(problem)
     swarm = algorithm(run.swarm)
-    search = swarm.function if run.seconds is None else apart(swarm.function, seconds=run.seconds)
+    search = swarm.search(run.seconds)
     parameters = dict(swarm.parameters)
     if "population" in parameters:
         parameters["population"] = run.population
@@ -158,7 +158,8 @@ def _judged(
 
 def _seed(run: Run, joint: int) -> np.random.SeedSequence:
     """Random numbers of a search depend on what is run, not on when or by which worker."""
-    names = f"{run.case}/{run.coding}/{run.swarm}".encode()
+    swarm = algorithm(run.swarm).seeded_as or run.swarm
+    names = f"{run.case}/{run.coding}/{swarm}".encode()
     return np.random.SeedSequence([run.seed, zlib.crc32(names), joint + 1])
 
 

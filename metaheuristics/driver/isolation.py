@@ -1,46 +1,107 @@
 """An algorithm in a process of its own: it may hang, exit or crash, and only its own row shows it.
 
-The process runs the driver too, so that every fault has its name; its objective asks this side, which
-evaluates, counts and keeps the archive.  Nothing is unpickled that the process sent: whole messages
-are a line of JSON and plain floats.
+The process sends points and gets their fitness.  The objective, the archive and the count of evaluations
+stay on this side, where the algorithm cannot reach them.  The process (`metaheuristics.driver.child`) runs
+the driver too, so that every fault of the algorithm has its name; this side checks the points again.
+
+What the process is given: the box, the budget, the seed, the algorithm, its parameters, and where modules
+are found.  Its working directory is an empty temporary folder, its environment a short list of variables,
+its standard streams are closed, and its command line names no file of the comparison.  It runs with the
+rights of the user all the same: see "Isolation" in docs/swarms.md.
 """
 
 from __future__ import annotations
 
-import functools
-import json
-import math
-import multiprocessing
+import contextlib
+import inspect
+import os
+import pickle
+import shutil
+import signal
+import socket
+import subprocess
+import sys
+import tempfile
 import time
-from multiprocessing.connection import Connection
-from typing import Any
+from collections.abc import Callable
+from pathlib import Path
+from typing import Any, TypeVar
 
 import numpy as np
 
-from metaheuristics.driver.judge import minimise
-from metaheuristics.driver.task import Array, BudgetSpent, Fault, Moves, Search, Status, Task
+from metaheuristics.driver.channel import Channel, MessageError
+from metaheuristics.driver.reason import printable
+from metaheuristics.driver.task import Array, BudgetSpent, Fault, Moves, Search, Status, Task, TaskError
+
+T = TypeVar("T")
 
 START = 60.0  # s that a process may take to start; not counted
+LAST_WORDS = 2.0  # s that a process which closed its channel has to end
+
+# variables that a process needs to find its libraries and to read text as this one does
+KEPT = (
+    "PATH", "LANG", "LC_ALL", "LC_CTYPE", "LD_LIBRARY_PATH", "DYLD_LIBRARY_PATH", "SYSTEMROOT",
+    "OMP_NUM_THREADS", "OPENBLAS_NUM_THREADS", "MKL_NUM_THREADS",
+)  # fmt: skip
+HARMLESS = (Status.ok, Status.stopped_early, Status.no_feasible_point)  # this side sees these itself
 
 
 def apart(algorithm: Search, *, seconds: float) -> Search:
-    """Return the same algorithm, run in its own process for at most ``seconds`` of its own time.
+    """Return the same algorithm, run in a process of its own.
 
-    Same seed, same points as in this process.  ``algorithm`` and its parameters must be picklable.
+    Parameters
+    ----------
+    algorithm : Search
+        A generator function ``(task, **parameters)``.  It and its parameters must be picklable.
+    seconds : float
+        Time limit of the algorithm's own work in one run [s]; the time of the objective is not counted.
+
+    Returns
+    -------
+    Search
+        Run it by `minimise` like any other.  With the same seed it finds the same points as in this
+        process; a run that exceeds its time has the status ``timed-out``, a process that ends has
+        ``exited``, and `Result.isolated` is true.
+
+    Raises
+    ------
+    TaskError
+        The time limit is not positive.
+
+    Examples
+    --------
+    >>> import numpy as np
+    >>> from metaheuristics import algorithm, apart, minimise
+    >>> swarm = apart(algorithm("pso").function, seconds=60.0)
+    >>> found = minimise(swarm, lambda x: (x**2).sum(axis=1), [-1, -1], [1, 1], budget=500, seed=0)
+    >>> found.status, found.isolated, found.evaluations
+    (<Status.ok: 'ok'>, True, 500)
     """
+    if not seconds > 0.0:
+        raise TaskError(f"seconds needs a positive time limit, got {seconds!r}")
+    return Apart(algorithm, seconds)
 
-    @functools.wraps(algorithm)  # its parameters stay visible
-    def search(task: Task, **parameters: object) -> Moves:
-        child = _Child(algorithm, task, parameters, seconds)
+
+class Apart:
+    """What `apart` returns; the driver knows an isolated run by this class."""
+
+    def __init__(self, algorithm: Search, seconds: float) -> None:
+        self.__signature__ = inspect.signature(algorithm)  # its parameters stay visible
+        self._algorithm, self._seconds = algorithm, seconds
+
+    def __call__(self, task: Task, **parameters: object) -> Moves:
+        """Yield the points that the process asks for."""
+        seed: Any = task.rng.bit_generator.seed_seq
+        work = self._algorithm, parameters, task.lo, task.hi, task.budget, seed
+        child = Child("run", work, self._seconds, most=8 * task.dim * task.budget)
         try:
-            fitness = None
+            fitness: Array | None = None
             while True:
-                header, x = child.exchange(fitness)
-                if header["kind"] == "end":
-                    status = Status(header["status"])
-                    if status not in (Status.ok, Status.stopped_early, Status.no_feasible_point):
-                        raise Fault(status, str(header["note"]))
+                header, data = child.exchange(fitness)
+                if header.get("kind") == "end":
+                    _end(header)
                     return None
+                x = _points(header, data, task.dim)
                 try:
                     fitness = yield x
                 except BudgetSpent as last:
@@ -48,80 +109,164 @@ def apart(algorithm: Search, *, seconds: float) -> Search:
         finally:
             child.kill()
 
-    return search
+
+def _points(header: dict[str, Any], data: bytes, dim: int) -> Array:
+    if header.get("kind") != "x" or len(data) % (8 * dim):
+        raise _bad(f"{len(data)} bytes for points of {dim} coordinates")
+    return np.frombuffer(data).reshape(-1, dim)
 
 
-class _Child:
-    """The process, seen from here."""
+def _end(header: dict[str, Any]) -> None:
+    """Raise the fault that the process reports, if it is one."""
+    word, note = header.get("status"), header.get("note")
+    if not isinstance(word, str) or word not in list(Status) or not isinstance(note, str):
+        raise _bad("an end without a status")
+    if Status(word) not in HARMLESS:
+        raise Fault(Status(word), printable(note))
 
-    def __init__(
-        self, algorithm: Search, task: Task, parameters: dict[str, Any], seconds: float
-    ) -> None:
-        context = multiprocessing.get_context("spawn")
-        self._here, there = context.Pipe()
-        seed = task.rng.bit_generator.seed_seq
-        arguments = (there, algorithm, parameters, task.lo, task.hi, task.budget, seed)
-        self._process = context.Process(target=_work, args=arguments, daemon=True)
-        self._limit, self._left = seconds, seconds
-        self._process.start()
-        there.close()
-        self._receive(START)  # ready
 
-    def exchange(self, fitness: Array | None) -> tuple[dict[str, Any], Array]:
-        """Send fitness (n,), if there is any; return the next message."""
-        started = time.perf_counter()
-        if fitness is not None:
-            try:
-                self._here.send_bytes(np.ascontiguousarray(fitness).tobytes())
-            except OSError:
-                raise self._gone() from None
-        message = self._receive(self._left)
-        self._left -= time.perf_counter() - started
-        return message
+def _bad(what: str) -> Fault:
+    return Fault(Status.bad_message, f"its process sent {what}")
 
-    def _receive(self, seconds: float) -> tuple[dict[str, Any], Array]:
-        """Return the next message, a header and floats; raises the `Fault` of a silent process."""
+
+class Child:
+    """The process, seen from this side.
+
+    Parameters
+    ----------
+    kind : str
+        ``"run"`` or ``"describe"``: see `metaheuristics.driver.child`.
+    work : object
+        What it needs for that; it is pickled for the process, never by it.
+    seconds : float
+        Time limit of its own work [s].
+    most : int
+        Bytes of data that its messages may have.
+
+    Raises
+    ------
+    Fault
+        The process did not start.
+    """
+
+    def __init__(self, kind: str, work: object, seconds: float, *, most: int) -> None:
+        data = pickle.dumps(work)  # first: what cannot be pickled is the caller's error
+        self._limit = self._left = seconds
+        self._most = most
+        self._folder = tempfile.mkdtemp(prefix="timebound-")
+        here, there = socket.socketpair()
+        self._channel = Channel(here)
         try:
-            if not self._here.poll(max(seconds, 0.0)):
-                raise Fault(Status.timed_out, f"took more than {self._limit:g} s of its own")
-            line, _, data = self._here.recv_bytes().partition(b"\n")
-        except (EOFError, OSError):
-            raise self._gone() from None
-        header = json.loads(line)
-        shape = tuple(header.get("shape", (0,)))
-        if math.prod(shape) * 8 != len(data):
-            raise Fault(Status.wrong_shape, f"sent {len(data)} bytes for shape {shape}")
-        return header, np.frombuffer(data).reshape(shape)
+            with there:
+                self._process = _start(there, self._folder)
+        except BaseException:
+            here.close()
+            shutil.rmtree(self._folder, ignore_errors=True)
+            raise
+        try:
+            path = dict.fromkeys([*map(os.path.abspath, sys.path), os.getcwd()])
+            header = {"kind": kind, "path": list(path), "main": _main(data)}
+            late = f"took more than {START:g} s to start"
+            self._carry(lambda: self._channel.send(header, data, START), late)
+            self._carry(lambda: self._channel.receive(0, START), late)  # ready
+        except BaseException:
+            self.kill()
+            raise
 
-    def _gone(self) -> Fault:
-        self._process.join(START)
-        return Fault(Status.exited, f"its process ended with exit code {self._process.exitcode}")
+    def exchange(self, fitness: Array | None) -> tuple[dict[str, Any], bytes]:
+        """Send fitness, if there is any, and wait for the next message.
+
+        Parameters
+        ----------
+        fitness : Array, shape (n,), optional
+            Of the points that the process asked for last.
+
+        Returns
+        -------
+        header : dict[str, Any]
+            What the process says: foreign, to be checked.
+        data : bytes
+            What follows it.
+
+        Raises
+        ------
+        Fault
+            The process is late, gone, or sends something else than a message.
+        """
+        started = time.perf_counter()
+
+        def both() -> tuple[dict[str, Any], bytes]:
+            if fitness is not None:
+                self._channel.send({}, np.ascontiguousarray(fitness).tobytes(), self._left)
+            left = self._left - (time.perf_counter() - started)
+            return self._channel.receive(self._most, max(left, 0.0))
+
+        found = self._carry(both, f"took more than {self._limit:g} s of its own")
+        self._left = max(self._left - (time.perf_counter() - started), 1e-9)
+        return found
+
+    def _carry(self, talk: Callable[[], T], late: str) -> T:
+        try:
+            return talk()
+        except TimeoutError:
+            raise Fault(Status.timed_out, late) from None
+        except MessageError as error:
+            raise _bad(str(error)) from None
+        except (EOFError, OSError):
+            raise Fault(Status.exited, self._last_words()) from None
+
+    def _last_words(self) -> str:
+        try:
+            code = self._process.wait(LAST_WORDS)
+        except subprocess.TimeoutExpired:
+            return "its process closed its channel"
+        if code < 0:
+            with contextlib.suppress(ValueError):
+                return f"its process was ended by {signal.Signals(-code).name}"
+        return f"its process ended with exit code {code}"
 
     def kill(self) -> None:
-        """End the process, whatever it does."""
-        self._here.close()
+        """End the process and those that it started, and remove its folder."""
+        self._channel.close()
+        if sys.platform != "win32":
+            with contextlib.suppress(ProcessLookupError, PermissionError):
+                os.killpg(self._process.pid, signal.SIGKILL)
         self._process.kill()
-        self._process.join()
+        self._process.wait()
+        shutil.rmtree(self._folder, ignore_errors=True)
 
 
-def _work(
-    connection: Connection,
-    algorithm: Search,
-    parameters: dict[str, Any],
-    lo: Array,
-    hi: Array,
-    budget: int,
-    seed: np.random.SeedSequence,
-) -> None:
-    """Run an algorithm in this process; its objective asks the other side."""
+def _start(there: socket.socket, folder: str) -> subprocess.Popen[bytes]:
+    """Start the process with one end of the channel and as little else as it needs."""
+    environment = {name: os.environ[name] for name in KEPT if name in os.environ}
+    environment |= dict.fromkeys(("HOME", "USERPROFILE", "TMPDIR", "TEMP", "TMP"), folder)
+    environment["PYTHONPATH"] = str(Path(__file__).resolve().parents[2])
+    environment["PYTHONHASHSEED"] = "0"  # a plug-in that runs through a set repeats itself
+    command = [sys.executable, "-m", "metaheuristics.driver.child"]
+    streams = {"stdout": subprocess.DEVNULL, "stderr": subprocess.DEVNULL}
+    if sys.platform == "win32":  # an end is shared with a process by its number, once it runs
+        process = subprocess.Popen(command, stdin=subprocess.PIPE, cwd=folder, env=environment, **streams)
+        process.stdin.write(there.share(process.pid))
+        process.stdin.close()
+        return process
+    number = there.fileno()
+    return subprocess.Popen(
+        [*command, str(number)],
+        stdin=subprocess.DEVNULL,
+        cwd=folder,
+        env=environment,
+        pass_fds=(number,),
+        start_new_session=True,  # the terminal's Ctrl-C is for this side; its children end with it
+        **streams,
+    )
 
-    def send(data: bytes = b"", **header: object) -> None:
-        connection.send_bytes(json.dumps(header).encode() + b"\n" + data)
 
-    def remote(x: Array) -> Array:
-        send(x.tobytes(), kind="x", shape=x.shape)
-        return np.frombuffer(connection.recv_bytes())
-
-    send(kind="ready")
-    result = minimise(algorithm, remote, lo, hi, budget=budget, seed=seed, **parameters)
-    send(kind="end", status=result.status.value, note=result.note)
+def _main(data: bytes) -> list[str]:
+    """How the process finds what is defined in the script that runs here: a kind and a place, or nothing."""
+    main = sys.modules["__main__"]
+    if b"__main__" not in data:
+        return []
+    if main.__spec__ is not None:
+        return ["module", main.__spec__.name]
+    file = getattr(main, "__file__", None)
+    return [] if file is None else ["file", os.path.abspath(file)]

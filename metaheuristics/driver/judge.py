@@ -9,15 +9,16 @@ from __future__ import annotations
 
 import inspect
 from collections.abc import Callable
+from dataclasses import replace
 from time import perf_counter
 from typing import TypeVar
 
-import numpy as np
 from numpy.typing import ArrayLike
 
 from metaheuristics.driver import checks
 from metaheuristics.driver.archive import Archive, Result
 from metaheuristics.driver.guards import Interrupt, global_random, user_interrupt
+from metaheuristics.driver.isolation import Apart
 from metaheuristics.driver.reason import fault_of
 from metaheuristics.driver.task import (
     Array,
@@ -76,7 +77,8 @@ def minimise(
         status, note = Status.global_random, "drew from numpy.random or random, not from task.rng"
     if status is Status.ok and archive.x is None:
         status, note = Status.no_feasible_point, f"none of {budget} values was finite"
-    return archive.result(status, note, run.seconds_algorithm, run.seconds_objective)
+    seconds = run.seconds_algorithm, run.seconds_objective
+    return replace(archive.result(status, note, *seconds), isolated=type(algorithm) is Apart)
 
 
 class _Run:

@@ -702,7 +702,7 @@ def test_whales_know_where_zero_is() -> None:
     assert drift("whale", 64.0) > 0.1
 
 
-SEARCH_NO_BETTER = {"random", "sobol", "butterfly", "whale-003", "whale-003-printed"}
+SEARCH_NO_BETTER = {"random", "sobol", "butterfly", "whale-lu-2024", "whale-lu-2024-printed"}
 
 
 @pytest.mark.parametrize("name", [name for name in NAMES if name != "random"])
