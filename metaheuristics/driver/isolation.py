@@ -245,7 +245,9 @@ def _start(there: socket.socket, folder: str) -> subprocess.Popen[bytes]:
     command = [sys.executable, "-m", "metaheuristics.driver.child"]
     streams = {"stdout": subprocess.DEVNULL, "stderr": subprocess.DEVNULL}
     if sys.platform == "win32":  # an end is shared with a process by its number, once it runs
-        process = subprocess.Popen(command, stdin=subprocess.PIPE, cwd=folder, env=environment, **streams)
+        process = subprocess.Popen(
+            command, stdin=subprocess.PIPE, cwd=folder, env=environment, **streams
+        )
         process.stdin.write(there.share(process.pid))
         process.stdin.close()
         return process
