@@ -13,8 +13,8 @@ Conventions, for whatever a paper leaves open:
 """
 
 from metaheuristics.by_name import algorithm
-from metaheuristics.driver.isolation import apart
 from metaheuristics.driver.archive import Result
+from metaheuristics.driver.isolation import apart
 from metaheuristics.driver.judge import minimise
 from metaheuristics.driver.plug_in import UnknownAlgorithmError
 from metaheuristics.driver.task import ObjectiveError, Status, Task, TaskError

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import operator
+from typing import Any, cast
 
 import numpy as np
 from numpy.typing import ArrayLike
@@ -87,9 +88,11 @@ def population(yielded: object, lo: Array, hi: Array) -> Array:
 
 def claim(returned: object, archive: Archive) -> None:
     """Raise a `Fault` if a returned (x, fitness) is better than anything that was evaluated."""
-    if not issubclass(type(returned), tuple) or tuple.__len__(returned) != 2:  # type: ignore[arg-type]
+    kind: type = type(returned)  # the true one, and the methods of a plain tuple: both can be faked
+    pair = cast("tuple[object, ...]", returned)
+    if not issubclass(kind, tuple) or tuple.__len__(pair) != 2:
         return  # no claim
-    claimed = tuple.__getitem__(returned, 1)  # type: ignore[arg-type]
+    claimed: Any = tuple.__getitem__(pair, 1)
     try:
         number = claimed.item() if type(claimed) is np.ndarray and claimed.size == 1 else claimed
         fitness = float(number)

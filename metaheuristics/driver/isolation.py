@@ -243,10 +243,10 @@ def _start(there: socket.socket, folder: str) -> subprocess.Popen[bytes]:
     environment["PYTHONPATH"] = str(Path(__file__).resolve().parents[2])
     environment["PYTHONHASHSEED"] = "0"  # a plug-in that runs through a set repeats itself
     command = [sys.executable, "-m", "metaheuristics.driver.child"]
-    streams = {"stdout": subprocess.DEVNULL, "stderr": subprocess.DEVNULL}
+    closed = subprocess.DEVNULL
     if sys.platform == "win32":  # an end is shared with a process by its number, once it runs
         process = subprocess.Popen(
-            command, stdin=subprocess.PIPE, cwd=folder, env=environment, **streams
+            command, stdin=subprocess.PIPE, stdout=closed, stderr=closed, cwd=folder, env=environment
         )
         process.stdin.write(there.share(process.pid))
         process.stdin.close()
@@ -254,12 +254,13 @@ def _start(there: socket.socket, folder: str) -> subprocess.Popen[bytes]:
     number = there.fileno()
     return subprocess.Popen(
         [*command, str(number)],
-        stdin=subprocess.DEVNULL,
+        stdin=closed,
+        stdout=closed,
+        stderr=closed,
         cwd=folder,
         env=environment,
         pass_fds=(number,),
-        start_new_session=True,  # the terminal's Ctrl-C is for this side; its children end with it
-        **streams,
+        start_new_session=True,  # the terminal's Ctrl-C is for this side; what it starts ends with it
     )
 
 

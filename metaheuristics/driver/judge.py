@@ -13,6 +13,7 @@ from dataclasses import replace
 from time import perf_counter
 from typing import TypeVar
 
+import numpy as np
 from numpy.typing import ArrayLike
 
 from metaheuristics.driver import checks

@@ -48,7 +48,6 @@ def differential_evolution(
     task: Task, *, popsize: int = 15, strategy: str = "best1bin", tol: float = 1e-12
 ) -> Moves:
     """DE with the library's own defaults, but whole generations at once, no early stop, no polish."""
-
     optimize = _optimize()
 
     def call(f: Callable[[Array], Array]) -> None:
@@ -71,7 +70,6 @@ def differential_evolution(
 
 def dual_annealing(task: Task) -> Moves:
     """Generalised simulated annealing with local searches, the library's own defaults."""
-
     optimize = _optimize()
 
     def call(f: Callable[[Array], Array]) -> None:

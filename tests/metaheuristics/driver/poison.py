@@ -60,7 +60,7 @@ class Shouting(str):
     split = encode = __format__ = __len__ = __iter__ = translate = isprintable = _raise  # type: ignore[assignment]
 
 
-class Mute(Exception):
+class Mute(Exception):  # noqa: N818
     """An exception whose text cannot be had."""
 
     def __str__(self) -> str:
@@ -68,7 +68,7 @@ class Mute(Exception):
         raise ZeroDivisionError
 
 
-class Numeric(Exception):
+class Numeric(Exception):  # noqa: N818
     """An exception whose text is no text."""
 
     def __str__(self) -> str:
@@ -76,7 +76,7 @@ class Numeric(Exception):
         return b"bytes"  # type: ignore[return-value]
 
 
-class Deep(Exception):
+class Deep(Exception):  # noqa: N818
     """An exception whose text asks for its own text."""
 
     def __str__(self) -> str:
@@ -84,7 +84,7 @@ class Deep(Exception):
         return f"{self}"
 
 
-class Quiet(Exception):
+class Quiet(Exception):  # noqa: N818
     """An exception whose text is a trap itself."""
 
     def __str__(self) -> str:
@@ -101,7 +101,7 @@ class Nameless(type):
         raise ZeroDivisionError
 
 
-class Masked(Exception, metaclass=Nameless):
+class Masked(Exception, metaclass=Nameless):  # noqa: N818
     """An exception that hides its name and pretends to be a fault."""
 
     @property  # type: ignore[misc]
