@@ -8,7 +8,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from compare.benchmark.objective import CODINGS, Objective, search_box
-from compare.benchmark.provenance import is_plug_in, machine, parameters_of, provenance_of
+from compare.benchmark.provenance import machine, parameters_of, provenance_of
 from compare.benchmark.rows import (
     BoundProof,
     Row,
@@ -18,10 +18,9 @@ from compare.benchmark.rows import (
     relative_gap,
 )
 from formulations import FAMILIES, Problem, check, longest_segment
-from metaheuristics import Result, algorithm, apart, minimise
+from metaheuristics import Result, algorithm, minimise
 
 REACHED = 1e-3  # gap below which a swarm in the stretched coding has found its optimum
-PLUG_IN_TIME_LIMIT = 60.0  # s of its own work that a plug-in has per search unless it is said
 
 
 @dataclass(frozen=True)
@@ -34,7 +33,7 @@ class Run:
         Evaluations; of each joint in the published coding.
     time_limit : float or None [s]
         Limit on the swarm's own work per search. A swarm with a limit runs in a process of its own.
-        A plug-in (``module:function``) always does, for at most ``PLUG_IN_TIME_LIMIT`` if left out.
+        A plug-in always does, for at most `metaheuristics.entry.TIME_LIMIT` if none is given.
 
     """
 
@@ -45,10 +44,6 @@ class Run:
     budget: int
     population: int
     time_limit: float | None = None
-
-    def __post_init__(self) -> None:
-        if self.time_limit is None and is_plug_in(self.swarm):
-            object.__setattr__(self, "time_limit", PLUG_IN_TIME_LIMIT)
 
     @property
     def key(self) -> RunKey:
@@ -114,9 +109,8 @@ def grade(
         objectives = [Objective(problem, stretch=run.coding == "stretched")]
     lo, hi = search_box(problem)
     swarm = algorithm(run.swarm)
-    search = swarm.function
-    if run.time_limit is not None:
-        search = apart(search, seconds=run.time_limit)
+    made_by = provenance_of(run.swarm, problem, run.population, run.time_limit)
+    search = swarm.search(made_by.time_limit)
     results = [
         minimise(
             search,
@@ -139,7 +133,6 @@ def grade(
     missed = motion.status is RowStatus.ok and run.coding == "stretched" and (gap or 0.0) > REACHED
     if missed and swarm.shortfall:
         note = swarm.shortfall
-    made_by = provenance_of(run.swarm, problem, run.population, run.time_limit)
     row = Row(
         case=run.case,
         family=problem.family,
@@ -233,7 +226,8 @@ def _judged(
 
 def _seed(run: Run, joint: int) -> np.random.SeedSequence:
     """Random numbers of a search depend on what is run, not on when or by which worker."""
-    names = f"{run.case}/{run.coding}/{run.swarm}".encode()
+    swarm = algorithm(run.swarm).seeded_as or run.swarm
+    names = f"{run.case}/{run.coding}/{swarm}".encode()
     return np.random.SeedSequence([run.seed, zlib.crc32(names), joint + 1])
 
 

@@ -26,8 +26,8 @@ SWARMS: dict[str, str] = {
     "bagging": "mpso",
     "ur5": "issa",
     "ur5-corrected": "issa",
-    "cobot": "pso-004",
-    "z1": "whale-003",
+    "cobot": "pso-zhang-2025",
+    "z1": "whale-lu-2024",
 }
 RUNGS: dict[str, str] = {
     "ruckig_stop_and_go": "Ruckig, full stop at each waypoint",

@@ -18,13 +18,14 @@ from typing import Any
 
 import numpy as np
 
+from compare.benchmark.objective import Objective
 from formulations import Problem
 from formulations.rungs import versions
-from metaheuristics import ALGORITHMS, Algorithm, algorithm
-from metaheuristics.by_name import LIBRARIES
+from metaheuristics import Algorithm, algorithm, minimise
+from metaheuristics.entry import TIME_LIMIT
 
 # what every run goes through, whatever its swarm: the driver and the coding
-_ALWAYS = ("metaheuristics.driver.minimise", "compare.benchmark.objective")
+_ALWAYS = (minimise.__module__, Objective.__module__)
 
 
 @dataclass(frozen=True, slots=True)
@@ -97,18 +98,6 @@ def provenance_of(
     )
 
 
-def is_plug_in(swarm: str) -> bool:
-    """Whether a name means somebody's own code: ``module:function``.
-
-    Parameters
-    ----------
-    swarm : str
-
-    """
-    place = swarm.partition(":")[0]
-    return swarm not in ALGORITHMS and place not in LIBRARIES
-
-
 def parameters_of(swarm: Algorithm, population: int) -> dict[str, Any]:
     """Return the parameters of a swarm, with this population if it has one.
 
@@ -156,7 +145,7 @@ def code_digest(swarm: str) -> str:
     files: dict[str, Path] = {}
     waiting = [*_modules_of(swarm), *_ALWAYS]
     own = [name for name in waiting if name not in _ALWAYS]
-    beside = _folder_of(own[0]) if is_plug_in(swarm) else None
+    beside = _folder_of(own[0]) if not algorithm(swarm).trusted else None
     while waiting:
         name = waiting.pop()
         if name in files:
@@ -181,9 +170,10 @@ def code_digest(swarm: str) -> str:
 
 def _modules_of(swarm: str) -> list[str]:
     """Names of the modules that hold a swarm's code, its own first."""
-    if is_plug_in(swarm):
+    found = algorithm(swarm)
+    if not found.trusted:
         return [swarm.partition(":")[0]]
-    function: Any = algorithm(swarm).function
+    function: Any = found.function
     while isinstance(function, functools.partial):
         function = function.func
     return [str(function.__module__)]

@@ -38,6 +38,7 @@ class RowStatus(StrEnum):
     raised = "raised"
     exited = "exited"
     timed_out = "timed-out"
+    bad_message = "bad-message"
     wrong_shape = "wrong-shape"
     out_of_box = "out-of-box"
     not_finite = "not-finite"

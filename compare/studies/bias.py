@@ -132,7 +132,7 @@ def _run(
     hi: Array,
 ) -> Row:
     entry = algorithm(swarm)
-    result = minimise(entry.function, f, lo, hi, budget=budget, seed=seed, **entry.parameters)
+    result = minimise(entry.search(), f, lo, hi, budget=budget, seed=seed, **entry.parameters)
     error = None if result.x is None else result.fitness
     return Row(task, place, swarm, entry.versions, seed, budget, error, result.status.value)
 

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import contextlib
 import os
 from pathlib import Path
 from typing import Any
@@ -39,10 +40,8 @@ def test_no_row_and_no_trace_is_lost_when_mend_is_interrupted(
     monkeypatch.setattr(Path, "write_text", dying(Path.write_text))
     if hasattr(store_module, "_append"):
         monkeypatch.setattr(store_module, "_append", dying(store_module._append))
-    try:
+    with contextlib.suppress(Killed):
         store.mend()
-    except Killed:
-        pass
     monkeypatch.undo()
     assert store.rows() == rows
     assert store.traces() == traces
