@@ -200,7 +200,7 @@ class _Climb:
         # the references' own numbers hold as well, should they be the better ones
         simple = {key: self.rungs[key].seconds or 0.0 for key in ("displacement", "ruckig_end_to_end")}
         best = max(simple, key=lambda key: simple[key])
-        if simple[best] > found.seconds:
+        if simple[best] >= found.seconds:
             return Outcome.ok(simple[best], note=f"that of {best}")
         return Outcome.ok(found.seconds, note=note)
 

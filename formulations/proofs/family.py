@@ -30,6 +30,7 @@ from formulations.problem.arrays import Array
 from formulations.problem.errors import InputError, NoFeasibleMotion
 from formulations.problem.problem import Problem
 from formulations.proofs.certificate import certificate_of, certificate_of_proof
+from formulations.proofs.displacement import exceeded_time
 from formulations.proofs.domain import data_of
 from formulations.proofs.every_motion.velocity_acceleration import every_motion
 from formulations.proofs.four_three_four import bound as four_three_four
@@ -121,7 +122,7 @@ def family_bound(
     answer = partial(_answer, problem, started)
     if not problem.moving_joints:
         return answer(0.0, np.full(problem.n_segments, 0.0), 0.0, 0, "proved")
-    simple = displacement_bound(problem)
+    simple = exceeded_time(problem)
     reason = _refusal(problem)
     if reason:
         known = None if optimum is None else optimum.durations
@@ -167,14 +168,6 @@ def _answer(
     )
 
 
-def displacement_bound(problem: Problem) -> float:
-    """Sum over the segments of displacement over top speed [s], rounded down; 0 if nothing moves."""
-    if not problem.moving_joints:
-        return 0.0
-    data = data_of(problem)
-    return float((data.least / data.derivatives[0]).max(axis=1).sum() * (1.0 - 1e-13))
-
-
 def _refusal(problem: Problem) -> str:
     """Why no bound beyond the displacements can be proved; empty if one can."""
     data = data_of(problem)
@@ -209,7 +202,7 @@ class _Pursuit:
         progress: Callable[[float, int], None] | None,
     ) -> None:
         self.problem, self.begin, self.record, self.progress = problem, begin, record, progress
-        self.simple = displacement_bound(problem)
+        self.simple = exceeded_time(problem)
         self.boxes, self.restarts = 0, 0
         self.best: Proof | None = None
         self.upper, self.durations = np.inf, durations

@@ -18,7 +18,7 @@ from scipy.interpolate import CubicSpline
 from formulations.motion.trajectory import Trajectory
 from formulations.problem.arrays import Array
 from formulations.problem.problem import Problem
-from formulations.references.displacement import displacement_segments
+from formulations.proofs.displacement import displacement_durations
 from formulations.references.reference import Outcome
 
 _GRIDS = (100, 200, 400, 800, 1600)  # intervals per path piece, coarse to fine
@@ -55,7 +55,7 @@ def toppra_cubic(problem: Problem) -> Outcome:
     """TOPP-RA on the clamped cubic spline through the waypoints, knots by displacement time."""
     if not problem.moving_joints:
         return Outcome.ok(0.0, note="nothing moves")
-    times = displacement_segments(problem)
+    times = displacement_durations(problem)
     moves = times > 0.0
     knots = np.concatenate([[0.0], np.cumsum(times[moves])])
     points = problem.waypoints[np.concatenate([[True], moves])]

@@ -35,9 +35,10 @@ from formulations import (
 )
 from formulations.proofs.arithmetic.outward import down, quadratic_least, up
 from formulations.proofs.certificate import certificate_of, certificate_of_proof, write_certificate
+from formulations.proofs.displacement import displacement_bound
 from formulations.proofs.events import ABOVE, ASIDE, BELOW, EMPTY, LEAF, SPLIT, TURN
 from formulations.proofs.every_motion.velocity_acceleration import every_motion
-from formulations.proofs.family import PROVERS, displacement_bound
+from formulations.proofs.family import PROVERS
 from formulations.proofs.four_three_four import bound as four_three_four
 from formulations.proofs.proof import Proof
 from formulations.proofs.quintic import bound as quintic
