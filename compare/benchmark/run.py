@@ -24,8 +24,8 @@ from compare.benchmark.honest import honest_table
 from compare.benchmark.statistics import bound_of
 from compare.benchmark.store import Store, key_of
 from formulations import FAMILIES, Problem, ladder
+from formulations.climb import versions
 from formulations.diagnosis import diagnose
-from formulations.rungs import versions
 from metaheuristics import algorithm
 
 T = TypeVar("T")

@@ -21,7 +21,7 @@ from compare.commands import shared as commands
 from compare.commands.split import split, split_figure
 from compare.report.motion_picture import fastest_spline
 from compare.report.style import BLACK, BLUE, GREEN, GREY, ORANGE, PURPLE, SKY, STYLE, VERMILION, styled
-from formulations import FAMILIES, Problem, Trajectory, check
+from formulations import FAMILIES, RUNGS, Problem, Trajectory, check
 from formulations.problem.arrays import Array
 from metaheuristics import ALGORITHMS, GROUPS
 
@@ -36,20 +36,6 @@ SWARM_STYLE = [  # within one group of swarms
 ]  # fmt: skip
 KIND_STYLE: dict[Any, Any] = {"lower": (BLUE, ">"), "upper": (GREEN, "o"), "reference": (PURPLE, "D")}
 SMALLEST = 1e-12  # gaps below are drawn here: rounding
-
-RUNG_NAMES = {
-    "displacement": "displacement bound",
-    "ruckig_end_to_end": "Ruckig, end to end",
-    "free_form_lower": "best bound on any motion",
-    "free_form": "fastest motion known",
-    "ruckig_stop_and_go": "Ruckig, stop and go",
-    "family_lower": "certified bound of the family",
-    "family": "optimum of the family",
-    "family_longest_segment": "each joint alone, longest time per segment, stretched",
-    "toppra_family_path": "TOPP-RA, path of the optimum (no jerk limit)",
-    "toppra_cubic": "TOPP-RA, clamped cubic (no jerk limit)",
-    "copp_family_path": "COPP, path of the optimum",
-}
 
 
 def draw_case(folder: str, case: str, problem: Problem) -> list[str]:
@@ -96,7 +82,7 @@ def where_the_time_goes(problem: Problem, ladder: dict[str, Any], rows: list[dic
         verified = sorted(seconds for seconds in mine if seconds is not None)
         if verified and ladder["ladder"]["free_form"]["seconds"]:
             median = verified[(len(verified) - 1) // 2]
-            splits[coding] = split(ladder["ladder"], median, coding)
+            splits[coding] = split(ladder["ladder"], median, coding, has_jerk=problem.limits.has_jerk)
     return split_figure(f"{problem.name}: where the time of {swarm} goes (median seed)", splits)
 
 
@@ -104,7 +90,7 @@ def where_the_time_goes(problem: Problem, ladder: dict[str, Any], rows: list[dic
 def ladder_figure(problem: Problem, ladder: dict[str, Any], rows: list[dict[str, Any]]) -> Figure:
     """Every bound and the best swarm results on one time axis."""
     entries = [
-        (RUNG_NAMES[key], rung["seconds"], *KIND_STYLE[rung["kind"]])
+        (RUNGS[key].name, rung["seconds"], *KIND_STYLE[rung["kind"]])
         for key, rung in ladder["ladder"].items()
         if rung["seconds"] is not None and key not in ("free_form_lower", "family_lower")
     ]
@@ -141,7 +127,7 @@ def ladder_figure(problem: Problem, ladder: dict[str, Any], rows: list[dict[str,
         axes.plot([0.0, seconds], [y, y], color=colour, lw=1.0, alpha=0.35)
         axes.plot(seconds, y, marker, color=colour, ms=7)
         relative = ""
-        if optimum and name != RUNG_NAMES["family"]:
+        if optimum and name != RUNGS["family"].name:
             gap = seconds / optimum - 1.0
             relative = "  (the optimum)" if abs(gap) < 5e-7 else f"  ({gap:+.2%})"
         axes.text(seconds, y, f"   {seconds:.4f} s{relative}", va="center", fontsize=8)

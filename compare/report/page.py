@@ -19,11 +19,10 @@ from compare.benchmark.run import each, workers
 from compare.benchmark.statistics import Summary, best_claim, best_row, bound_of, summaries
 from compare.benchmark.store import Store
 from compare.commands import shared as commands
-from compare.report.figures import RUNG_NAMES, draw_case
+from compare.report.figures import draw_case
 from compare.report.five_papers import five_papers
 from compare.studies.study import STUDIES
-from formulations import Problem, load
-from formulations.rungs import MEANINGS
+from formulations import RUNGS, Problem, load
 from metaheuristics import ALGORITHMS, GROUPS, NOT_REPRODUCIBLE
 
 FIGURES = {
@@ -146,8 +145,7 @@ def _context(
         "lost": NOT_REPRODUCIBLE,
         "summaries": found,
         "ladders": ladders,
-        "rungs": RUNG_NAMES,
-        "meanings": MEANINGS,
+        "meanings": {key: rung.meaning for key, rung in RUNGS.items()},
         "bounds": {case: bound_of(ladders[case]) for case in cases},
         "headlines": [_headline(case, ladders[case], rows, found) for case in cases],
         "rows": len(rows),

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from formulations.problem.problem import Problem
 from formulations.proofs.displacement import displacement_bound, displacement_durations
-from formulations.references.reference import Outcome
+from formulations.references.reference import Kind, Outcome, Rung
 
 
 def displacement(problem: Problem) -> Outcome:
@@ -14,3 +14,13 @@ def displacement(problem: Problem) -> Outcome:
         durations=displacement_durations(problem),
         note="displacement over top speed",
     )
+
+
+DISPLACEMENT = Rung(
+    key="displacement",
+    kind=Kind.LOWER,
+    name="displacement bound",
+    meaning="no motion is faster: displacement at top speed",
+    find=displacement,
+    certified=True,
+)

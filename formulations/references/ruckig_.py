@@ -16,7 +16,7 @@ from formulations.motion.trajectory import Trajectory, check
 from formulations.problem.arrays import Array
 from formulations.problem.problem import Problem
 from formulations.proofs.rest_to_rest import end_to_end_bound
-from formulations.references.reference import Outcome
+from formulations.references.reference import Kind, Outcome, Rung
 
 
 def ruckig_end_to_end(problem: Problem) -> Outcome:
@@ -120,3 +120,21 @@ def pieces_of(answer: ruckig.Trajectory, start: Array) -> tuple[Array, Array]:
             v += h * (a + h * j / 2.0)
             a += h * j
     return durations, coefficients
+
+
+RUCKIG_END_TO_END = Rung(
+    key="ruckig_end_to_end",
+    kind=Kind.LOWER,
+    name="Ruckig, end to end",
+    meaning="no motion is faster: Ruckig, inner waypoints ignored",
+    find=ruckig_end_to_end,
+    certified=True,
+)
+RUCKIG_STOP_AND_GO = Rung(
+    key="ruckig_stop_and_go",
+    kind=Kind.UPPER,
+    name="Ruckig, stop and go",
+    meaning="Ruckig with a full stop at each waypoint",
+    find=ruckig_stop_and_go,
+    certified=True,
+)
