@@ -20,7 +20,7 @@ import numpy as np
 
 from compare.benchmark.objective import Objective
 from formulations import Problem
-from formulations.rungs import versions
+from formulations.climb import versions
 from metaheuristics import Algorithm, algorithm, minimise
 from metaheuristics.entry import TIME_LIMIT
 

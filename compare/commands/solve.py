@@ -9,11 +9,10 @@ from pathlib import Path
 from typing import Any
 
 from compare.commands import shared as commands
-from formulations import InputError, Ladder, ladder, load
+from formulations import RUNGS, InputError, Ladder, ladder, load
 from formulations.diagnosis import diagnose
 from formulations.motion.motion_file import write_motion
 from formulations.proofs.certificate import write_certificate
-from formulations.rungs import MEANINGS
 
 _LINES = 8  # of what holds the motion up
 
@@ -126,7 +125,7 @@ def as_text(answer: Ladder) -> str:
                 "-" if rung.seconds is None else f"{rung.seconds:.6f} s",
                 proof if rung.status == "ok" else rung.status,
                 f"{rung.runtime:.2f} s",
-                MEANINGS[rung.key][1],
+                RUNGS[rung.key].meaning,
             ]
         )
     notes = [f"  {rung.key}: {rung.note}" for rung in rungs if rung.note]

@@ -67,18 +67,19 @@ class Share:
         return self.high - self.low
 
 
-def split(rungs: Mapping[str, RungRecord], seconds: float, coding: str) -> list[Share]:
+def split(rungs: Mapping[str, RungRecord], seconds: float, coding: str, *, has_jerk: bool) -> list[Share]:
     """Shares of a verified time [s] above the certified bound, from the bound up.
 
-    rungs: ``Ladder.to_json()["ladder"]``. They add up to ``seconds`` minus ``free_form_lower``. Raises
-    InputError where the ladder lacks the bound, a free-form motion or the family's optimum.
+    rungs: ``Ladder.to_json()["ladder"]``. has_jerk: whether the problem limits any jerk.
+    The shares add up to ``seconds`` minus ``free_form_lower``. Raises InputError where the ladder lacks
+    the bound, a free-form motion or the family's optimum.
     """
     known = {key: rung["seconds"] for key, rung in rungs.items() if rung["seconds"] is not None}
     for key in ("free_form_lower", "free_form", "family"):
         if key not in known:
             raise InputError(f"split: the ladder has no {key} ({rungs[key]['note']})")
     levels = [("", known["free_form_lower"]), ("proof", known["free_form"])]
-    timed = path_timing(rungs)
+    timed = path_timing(rungs, has_jerk=has_jerk)
     if timed is None:
         levels.append(("family", known["family"]))
     else:
@@ -89,14 +90,13 @@ def split(rungs: Mapping[str, RungRecord], seconds: float, coding: str) -> list[
     return [Share(name, low, high) for (_, low), (name, high) in pairwise(levels)]
 
 
-def path_timing(rungs: Mapping[str, RungRecord]) -> str | None:
+def path_timing(rungs: Mapping[str, RungRecord], *, has_jerk: bool) -> str | None:
     """The rung that is the optimum on the family's own path under all limits, None if there is none."""
     if rungs["copp_family_path"]["seconds"] is not None:
         return "copp_family_path"
-    # COPP is refused for the lack of a jerk limit, and then TOPP-RA has all limits there are
-    if rungs["copp_family_path"]["note"].startswith("no jerk limit"):
-        return "toppra_family_path" if rungs["toppra_family_path"]["seconds"] is not None else None
-    return None
+    # without a jerk limit TOPP-RA has all limits there are
+    timed = not has_jerk and rungs["toppra_family_path"]["seconds"] is not None
+    return "toppra_family_path" if timed else None
 
 
 def as_text(shares: list[Share]) -> str:
@@ -211,7 +211,7 @@ def split_of(
         if row.seconds is None:
             print(f"{coding}: no verified motion ({row.status}: {row.note})", file=sys.stderr)
             continue
-        splits[coding] = split(climbed["ladder"], row.seconds, coding)
+        splits[coding] = split(climbed["ladder"], row.seconds, coding, has_jerk=problem.limits.has_jerk)
     if not splits:
         raise InputError(f"--swarm: {swarm} found no verified motion in {', '.join(codings)}")
     return splits

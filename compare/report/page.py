@@ -27,12 +27,10 @@ from compare.benchmark.statistics import (
 )
 from compare.benchmark.store import Settings, Store
 from compare.commands import shared as commands
-from compare.report.figures import RUNG_NAMES
 from compare.report.figures.case import draw_case
 from compare.report.papers_at_a_glance import papers_at_a_glance
 from compare.studies.study import STUDIES
-from formulations import Problem, load
-from formulations.rungs import MEANINGS
+from formulations import RUNGS, Problem, load
 from metaheuristics import ALGORITHMS, GROUPS, NOT_REPRODUCIBLE
 
 FIGURES = {
@@ -209,8 +207,7 @@ def _context(
         "lost": NOT_REPRODUCIBLE,
         "summaries": found,
         "ladders": ladders,
-        "rungs": RUNG_NAMES,
-        "meanings": MEANINGS,
+        "meanings": {key: rung.meaning for key, rung in RUNGS.items()},
         "bounds": {case: bound_of(ladders[case]) for case in cases},
         "headlines": [_headline(case, ladders[case], rows, found) for case in cases],
         "rows": len(rows),

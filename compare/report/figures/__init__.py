@@ -1,12 +1,11 @@
 """The pictures of one case, drawn from the store alone: bounds, gaps, convergence, motion."""
 
-from compare.report.figures.bounds import RUNG_NAMES, ladder_figure
+from compare.report.figures.bounds import ladder_figure
 from compare.report.figures.convergence import convergence_figure
 from compare.report.figures.gaps import gap_figure
 from compare.report.figures.motion import motion_figure, samples
 
 __all__ = [
-    "RUNG_NAMES",
     "convergence_figure",
     "gap_figure",
     "ladder_figure",

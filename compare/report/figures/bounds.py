@@ -12,24 +12,9 @@ from compare.benchmark.ladders import LadderRecord
 from compare.benchmark.rows import BoundProof, Row
 from compare.benchmark.statistics import best_claim, best_row, bound_of
 from compare.report.style import BLUE, GREEN, ORANGE, PURPLE, VERMILION, styled
-from formulations import Problem
+from formulations import RUNGS, Problem
 
 KIND_STYLE: dict[Any, Any] = {"lower": (BLUE, ">"), "upper": (GREEN, "o"), "reference": (PURPLE, "D")}
-
-RUNG_NAMES = {
-    "displacement": "displacement bound",
-    "ruckig_end_to_end": "Ruckig, end to end",
-    "free_form_lower": "best bound on any motion",
-    "free_form": "fastest motion known",
-    "ruckig_stop_and_go": "Ruckig, stop and go",
-    "family_lower": "certified bound of the family",
-    "family": "optimum of the family",
-    "family_longest_segment": "each joint alone, longest time per segment, stretched",
-    "toppra_family_path": "TOPP-RA, path of the optimum (no jerk limit)",
-    "toppra_cubic": "TOPP-RA, clamped cubic (no jerk limit)",
-    "copp_family_path": "COPP, path of the optimum",
-}
-"""Names of the rungs in pictures and tables."""
 
 
 @styled
@@ -46,7 +31,7 @@ def ladder_figure(problem: Problem, ladder: LadderRecord, rows: Sequence[Row]) -
 
     """
     entries = [
-        (RUNG_NAMES[key], rung["seconds"], *KIND_STYLE[rung["kind"]])
+        (RUNGS[key].name, rung["seconds"], *KIND_STYLE[rung["kind"]])
         for key, rung in ladder["ladder"].items()
         if rung["seconds"] is not None and key not in ("free_form_lower", "family_lower")
     ]
@@ -77,7 +62,7 @@ def ladder_figure(problem: Problem, ladder: LadderRecord, rows: Sequence[Row]) -
         axes.plot([0.0, seconds], [y, y], color=colour, lw=1.0, alpha=0.35)
         axes.plot(seconds, y, marker, color=colour, ms=7)
         relative = ""
-        if optimum and name != RUNG_NAMES["family"]:
+        if optimum and name != RUNGS["family"].name:
             gap = seconds / optimum - 1.0
             relative = "  (the optimum)" if abs(gap) < 5e-7 else f"  ({gap:+.2%})"
         axes.text(seconds, y, f"   {seconds:.4f} s{relative}", va="center", fontsize=8)

@@ -99,5 +99,7 @@ def where_the_time_goes(problem: Problem, ladder: LadderRecord, rows: Sequence[R
         mine = [row for row in rows if row.swarm == swarm and row.coding == coding]
         seconds = lower_median(times_of(mine))
         if seconds is not None and ladder["ladder"]["free_form"]["seconds"]:
-            splits[coding] = split(ladder["ladder"], seconds, coding)
+            splits[coding] = split(
+                ladder["ladder"], seconds, coding, has_jerk=problem.limits.has_jerk
+            )
     return split_figure(f"{problem.name}: where the time of {swarm} goes (median seed)", splits)
