@@ -83,10 +83,13 @@ def provenance_of(
     population : int
         Asked for; swarms without such a parameter ignore it.
     time_limit : float or None [s]
-        Of a swarm in a process of its own; None if it runs in this one.
+        Of a swarm in a process of its own. None: the swarm runs in this process if it is trusted, else
+        in its own for at most `metaheuristics.entry.TIME_LIMIT`.
 
     """
     found = algorithm(swarm)
+    if time_limit is None and not found.trusted:
+        time_limit = TIME_LIMIT
     return Provenance(
         library=found.versions,
         parameters=parameters_text(parameters_of(found, population)),

@@ -189,9 +189,9 @@ class _Judge:
         stretch = float(self._stretch[k]) * total / row.claimed
         if not np.isclose(row.stretch, stretch, rtol=_SAME, atol=_SAME):
             return f"it states the stretch {row.stretch:.9g}, which is {stretch:.9g}"
-        near = abs(stretch - 1.0) <= 10.0 * _SAME  # within rounding of the limit both are true
-        keeps = stretch <= 1.0 and bool(self._inside[k])
-        if row.keeps_limits is not keeps and not (near and self._inside[k]):
+        most = 1.0 + TOLERANCE  # within rounding of it either verdict can be right
+        keeps = stretch <= most and bool(self._inside[k])
+        if row.keeps_limits is not keeps and abs(stretch - most) > 0.5 * TOLERANCE:
             return f"its claim {'keeps' if keeps else 'breaks'} the limits, against what it states"
         return None
 
