@@ -7,7 +7,6 @@ import multiprocessing
 import os
 import platform
 import signal
-import sys
 from collections.abc import Callable, Iterable, Iterator
 from concurrent.futures import FIRST_COMPLETED, Future, ProcessPoolExecutor, wait
 from contextlib import contextmanager
@@ -15,7 +14,6 @@ from dataclasses import asdict
 from typing import Any, TypeVar
 
 import numpy as np
-from tqdm import tqdm
 
 from compare.audit import audit, load_papers
 from compare.audit.paper_file import published_text
@@ -23,6 +21,7 @@ from compare.benchmark.grade import Graded, Run, grade
 from compare.benchmark.honest import honest_table
 from compare.benchmark.statistics import bound_of
 from compare.benchmark.store import Store, key_of
+from compare.screen import bar
 from formulations import FAMILIES, Problem, ladder
 from formulations.diagnosis import diagnose
 from formulations.rungs import versions
@@ -64,16 +63,14 @@ def each(
 ) -> Iterator[T]:
     """Results of ``function(*call)`` as they end, under a progress bar with the time left."""
     waiting = list(calls)[::-1]
-    with tqdm(total=len(waiting), desc=title, unit="", disable=None, leave=False) as bar:
-        if not sys.stderr.isatty():
-            print(f"{title}: {len(waiting)}", file=sys.stderr, flush=True)
+    with bar(title, len(waiting)) as advance:
         running: set[Future[T]] = set()
         while waiting or running:
             while waiting and len(running) < 64:  # enough to keep every worker busy
                 running.add(pool.submit(function, *waiting.pop()))
             done, running = wait(running, return_when=FIRST_COMPLETED)
             for future in done:
-                bar.update()
+                advance()
                 yield future.result()
 
 

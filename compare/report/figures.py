@@ -18,9 +18,9 @@ from compare.benchmark.grade import Trace, durations_of
 from compare.benchmark.statistics import best_claim, best_row, bound_of, convergence
 from compare.benchmark.store import Store, key_of
 from compare.commands import shared as commands
-from compare.commands.split import split, split_figure
 from compare.report.motion_picture import fastest_spline
 from compare.report.style import BLACK, BLUE, GREEN, GREY, ORANGE, PURPLE, SKY, STYLE, VERMILION, styled
+from compare.studies.time_split import split, split_figure
 from formulations import FAMILIES, Problem, Trajectory, check
 from formulations.problem.arrays import Array
 from metaheuristics import ALGORITHMS, GROUPS
@@ -96,7 +96,7 @@ def where_the_time_goes(problem: Problem, ladder: dict[str, Any], rows: list[dic
         verified = sorted(seconds for seconds in mine if seconds is not None)
         if verified and ladder["ladder"]["free_form"]["seconds"]:
             median = verified[(len(verified) - 1) // 2]
-            splits[coding] = split(ladder["ladder"], median, coding)
+            splits[coding] = split(problem, ladder["ladder"], median, coding)
     return split_figure(f"{problem.name}: where the time of {swarm} goes (median seed)", splits)
 
 

@@ -1,4 +1,4 @@
-"""``python -m compare.report DIR``: the report of a comparison, rendered from its store alone."""
+"""The report of a comparison, rendered from its store alone."""
 
 from __future__ import annotations
 
@@ -15,14 +15,14 @@ import numpy as np
 from compare.audit import chapter
 from compare.benchmark.honest import key_of_paper
 from compare.benchmark.objective import CODINGS
-from compare.benchmark.run import each, workers
+from compare.benchmark.run import each
 from compare.benchmark.statistics import Summary, best_claim, best_row, bound_of, summaries
 from compare.benchmark.store import Store
 from compare.commands import shared as commands
 from compare.report.figures import RUNG_NAMES, draw_case
 from compare.report.five_papers import five_papers
 from compare.studies.study import STUDIES
-from formulations import Problem, load
+from formulations import Problem
 from formulations.rungs import MEANINGS
 from metaheuristics import ALGORITHMS, GROUPS, NOT_REPRODUCIBLE
 
@@ -224,28 +224,3 @@ def _shade(gap: float | None) -> str:
 
 def _inline(path: Path) -> str:
     return "data:image/svg+xml;base64," + base64.b64encode(path.read_bytes()).decode()
-
-
-def main() -> int:
-    """Render again, without running anything."""
-    parser = commands.parser(
-        "report",
-        "Draw the report of a comparison again, from its rows.",
-        "python -m compare.report report",
-    )
-    parser.add_argument("folder", metavar="DIR", help="folder that compare.all wrote")
-    parser.add_argument("--jobs", type=int, default=2, help="worker processes")
-    options = parser.parse_args()
-    folder = Path(options.folder)
-    store = Store(folder)
-    jobs = commands.positive("--jobs", options.jobs)
-    settings = store.settings()
-    problems = {case: load(case) for case in settings["cases"]}
-    with workers(jobs) as pool:
-        page = render(pool, folder, problems, settings)
-    print(f"report: {page}")
-    return commands.DONE
-
-
-if __name__ == "__main__":
-    commands.run(main)
