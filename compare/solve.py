@@ -1,9 +1,10 @@
-"""``python -m compare.solve FILE``: the spelling that the command has always had."""
+"""``python -m compare.solve FILE``: every bound of one problem."""
 
 from __future__ import annotations
 
-from compare.commands import shared
-from compare.commands.solve import main
+import sys
+
+from compare.__main__ import main
 
 if __name__ == "__main__":
-    shared.run(main)
+    sys.exit(main(["solve", *sys.argv[1:]]))

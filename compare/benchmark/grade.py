@@ -34,7 +34,6 @@ class Run:
     time_limit : float or None [s]
         Limit on the swarm's own work per search. A swarm with a limit runs in a process of its own.
         A plug-in always does, for at most `metaheuristics.entry.TIME_LIMIT` if none is given.
-
     """
 
     case: str
@@ -63,7 +62,6 @@ class Trace:
         Numbers of evaluations at which the best fitness fell, and the last.
     best : list of float [s]
         Best fitness after each of them.
-
     """
 
     joint: int
@@ -99,7 +97,6 @@ def grade(
     -------
     Graded
         A misbehaving swarm is a status in its row, never an exception.
-
     """
     if run.coding == "published":
         joints = problem.moving_joints

@@ -57,7 +57,6 @@ class KnownTime:
         The method of a published motion.
     stretch : float or None
         Least factor on the durations of a published motion that keeps the limits.
-
     """
 
     what: str
@@ -87,7 +86,6 @@ def table_of_known_times(
     -------
     list of KnownTime
         Without published times if no paper belongs to the problem.
-
     """
     lines = []
     paper = paper_of_case(problem.name)
@@ -115,7 +113,6 @@ def paper_of_case(case: str) -> Paper | None:
     -------
     Paper or None
         None if no shipped paper has this case.
-
     """
     key = key_of_paper(case)
     return next((p for p in load_papers(key) if p.name == case), None) if key else None
@@ -132,7 +129,6 @@ def key_of_paper(case: str) -> str | None:
     -------
     str or None
         None if no shipped paper has this case.
-
     """
     for name in PAPERS:
         if any(paper.name == case for paper in load_papers(name)):

@@ -44,7 +44,6 @@ def ladder_record(ladder: Ladder) -> LadderRecord:
     Parameters
     ----------
     ladder : Ladder
-
     """
     found = cast(LadderRecord, ladder.to_json())
     found["alone"] = [None if one is None else one.seconds for one in ladder.alone]
@@ -68,7 +67,6 @@ def checked_ladder_record(data: Any, path: Path) -> LadderRecord:
     ------
     InputError
         If an entry is missing or is of another type.
-
     """
     try:
         for key, kind in (("problem", str), ("ladder", dict), ("durations", dict)):

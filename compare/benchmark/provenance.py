@@ -51,7 +51,6 @@ class Provenance:
         -------
         str or None
             The first difference in words, None if the row was made by the same.
-
         """
         for field in fields(self):
             if getattr(row, field.name) != getattr(self, field.name):
@@ -85,7 +84,6 @@ def provenance_of(
     time_limit : float or None [s]
         Of a swarm in a process of its own. None: the swarm runs in this process if it is trusted, else
         in its own for at most `metaheuristics.entry.TIME_LIMIT`.
-
     """
     found = algorithm(swarm)
     if time_limit is None and not found.trusted:
@@ -108,7 +106,6 @@ def parameters_of(swarm: Algorithm, population: int) -> dict[str, Any]:
     ----------
     swarm : Algorithm
     population : int
-
     """
     parameters = dict(swarm.parameters)
     if "population" in parameters:
@@ -123,7 +120,6 @@ def parameters_text(parameters: dict[str, Any]) -> str:
     ----------
     parameters : dict
         What is no JSON stands there as its ``repr``.
-
     """
     return json.dumps(parameters, sort_keys=True, default=repr)
 
@@ -143,7 +139,6 @@ def code_digest(swarm: str) -> str:
     -------
     str
         12 hexadecimal digits; empty if the source of the swarm cannot be read.
-
     """
     files: dict[str, Path] = {}
     waiting = [*_modules_of(swarm), *_ALWAYS]
@@ -241,7 +236,6 @@ def problem_digest(problem: Problem) -> str:
     Parameters
     ----------
     problem : Problem
-
     """
     limits = problem.limits
     parts = (problem.waypoints, limits.derivatives, limits.position)

@@ -48,7 +48,6 @@ def judged_again(
     list of Row
         The same rows in the same order. Where a row does not hold, it has the status ``contradicted``,
         the reason as its note, and none of its numbers.
-
     """
     reasons: dict[int, str] = {}
     seen: set[RunKey] = set()
@@ -74,7 +73,6 @@ def contradicted(row: Row, reason: str) -> Row:
     row : Row
     reason : str
         Why it does not hold.
-
     """
     return replace(
         row,
@@ -270,7 +268,6 @@ def exact_extent(problem: Problem, durations: Array) -> tuple[Array, Array, Arra
         no number holds the motion.
     excess : Array, shape (n,) [rad]
         How far the position limits are left beyond the slack; at most 0 if they are kept.
-
     """
     with np.errstate(all="ignore"):
         return _exact_extent(problem, durations)

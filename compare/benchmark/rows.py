@@ -109,7 +109,6 @@ class Row:
         Time spent in the swarm and in its objective.
     problem : str
         Digest of waypoints, limits and family.
-
     """
 
     case: str
@@ -156,7 +155,6 @@ class Row:
         bound : float or None [s]
         proof : BoundProof
             What stands behind it.
-
         """
         return replace(
             self,
@@ -182,7 +180,6 @@ class Row:
         ------
         ValueError
             If a cell does not fit its column; the message names the column.
-
         """
         values = {}
         for name, parse in _parsers().items():
@@ -202,7 +199,6 @@ def relative_gap(seconds: float | None, bound: float | None) -> float | None:
     Parameters
     ----------
     seconds, bound : float or None [s]
-
     """
     if seconds is None or not bound:
         return None
@@ -220,7 +216,6 @@ def durations_of(row: Row) -> Array:
     -------
     Array, shape (n_segments,) [s]
         Empty if the row has no motion.
-
     """
     return np.array(row.durations, dtype=np.float64)
 
@@ -233,7 +228,6 @@ def csv_text(rows: Iterable[Row], *, header: bool = True) -> str:
     rows : iterable of Row
     header : bool
         Whether the line of column names comes first.
-
     """
     buffer = io.StringIO()
     writer = csv.writer(buffer, lineterminator="\n")
@@ -260,7 +254,6 @@ def read_csv(path: Path) -> list[Row]:
     ------
     InputError
         If the file is another table, or a line does not fit; the message names the line.
-
     """
     try:
         text = path.read_text("utf-8")
@@ -299,7 +292,6 @@ def cell_text(value: object) -> str:
     ------
     ValueError
         If a number is not finite.
-
     """
     if value is None:
         return ""

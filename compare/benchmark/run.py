@@ -14,7 +14,6 @@ from contextlib import contextmanager
 from typing import Any, TypeVar
 
 import numpy as np
-from tqdm import tqdm
 
 from compare.audit import audit, load_papers
 from compare.audit.paper_file import published_text
@@ -26,6 +25,7 @@ from compare.benchmark.rejudge import judged_again
 from compare.benchmark.rows import BoundProof, Row, RunKey
 from compare.benchmark.statistics import bound_of
 from compare.benchmark.store import Store
+from compare.screen import bar
 from formulations import FAMILIES, Problem, ladder
 
 T = TypeVar("T")
@@ -46,7 +46,6 @@ def workers(jobs: int) -> Iterator[ProcessPoolExecutor]:
     Yields
     ------
     ProcessPoolExecutor
-
     """
     context = multiprocessing.get_context("spawn")
     pool = ProcessPoolExecutor(jobs, mp_context=context, initializer=_forget_the_command_line)
@@ -97,19 +96,16 @@ def each(
     ------
     object
         What the function returns, as the calls end.
-
     """
     waiting = list(calls)[::-1]
-    with tqdm(total=len(waiting), desc=title, unit="", disable=None, leave=False) as bar:
-        if not sys.stderr.isatty():
-            print(f"{title}: {len(waiting)}", file=sys.stderr, flush=True)
+    with bar(title, len(waiting)) as advance:
         running: set[Future[T]] = set()
         while waiting or running:
             while waiting and len(running) < _WAITING:
                 running.add(pool.submit(function, *waiting.pop()))
             done, running = wait(running, return_when=FIRST_COMPLETED)
             for future in done:
-                bar.update()
+                advance()
                 yield future.result()
 
 
@@ -124,7 +120,6 @@ def climb(pool: Executor, problems: dict[str, Problem], store: Store, *, certify
     store : Store
     certify : bool
         Whether the bound of the spline family is proved.
-
     """
     longest_first = sorted(problems.items(), key=lambda item: -item[1].n_segments)
     calls = [(case, problem, certify) for case, problem in longest_first]
@@ -152,7 +147,6 @@ def swarm(pool: Executor, runs: list[Run], problems: dict[str, Problem], store: 
         By case.
     store : Store
         With the bounds of all cases.
-
     """
     ladders = store.ladders()
     bounds = {case: bound_of(ladders[case]) for case in problems}
@@ -223,7 +217,6 @@ def audits(pool: Executor, papers: list[str], store: Store) -> None:
     papers : list of str
         Names of shipped papers.
     store : Store
-
     """
     made_of = {
         paper: {
@@ -262,7 +255,6 @@ def tabulate_known_times(pool: Executor, problems: dict[str, Problem], store: St
     problems : dict of str to Problem
         By case.
     store : Store
-
     """
     ladders = store.ladders()
     rows = judged_again(store.rows(), problems, ladders)
@@ -287,23 +279,9 @@ def warm_up(problems: dict[str, Problem]) -> None:
     ----------
     problems : dict of str to Problem
         By case.
-
     """
     for problem in problems.values():
         family = FAMILIES[problem.family]
         ones = np.ones((2, problem.n_segments))  # a single candidate is not compiled
         family.stretch(problem, ones)
         family.position_excess(problem, ones)
-
-
-__all__ = [
-    "audits",
-    "climb",
-    "each",
-    "machine",
-    "swarm",
-    "tabulate_known_times",
-    "versions_text",
-    "warm_up",
-    "workers",
-]

@@ -32,7 +32,6 @@ class Summary:
         Median gap of the verified motions to the family's optimum; ``least`` and ``most`` of them.
     claimed_gap : float or None
         Median gap of the claimed motions.
-
     """
 
     case: str
@@ -59,7 +58,6 @@ def summaries(rows: Iterable[Row]) -> dict[tuple[str, str, str], Summary]:
     -------
     dict of (case, coding, swarm) to Summary
         In the order in which the rows name them first.
-
     """
     groups: dict[tuple[str, str, str], list[Row]] = {}
     for row in rows:
@@ -89,7 +87,6 @@ def median(values: Sequence[float]) -> float | None:
     Parameters
     ----------
     values : sequence of float
-
     """
     return float(np.median(values)) if len(values) else None
 
@@ -105,7 +102,6 @@ def lower_median(values: Iterable[float]) -> float | None:
     -------
     float or None
         None of no values.
-
     """
     ordered = sorted(values)
     return ordered[(len(ordered) - 1) // 2] if ordered else None
@@ -117,7 +113,6 @@ def gaps_of(rows: Iterable[Row]) -> list[float]:
     Parameters
     ----------
     rows : iterable of Row
-
     """
     return [row.gap for row in rows if row.gap is not None]
 
@@ -128,7 +123,6 @@ def times_of(rows: Iterable[Row]) -> list[float]:
     Parameters
     ----------
     rows : iterable of Row
-
     """
     return [row.seconds for row in rows if row.seconds is not None]
 
@@ -156,7 +150,6 @@ def convergence(
         Numbers of evaluations.
     quartiles : Array, shape (3, m)
         25, 50 and 75 %; infinite while too few runs have found a feasible point.
-
     """
     grid = np.unique(np.geomspace(1, budget, points).round())
     gaps = []
@@ -179,7 +172,6 @@ def best_after(trace: Trace, grid: Array) -> Array:
     -------
     Array, shape (m,) [s]
         Infinite before the first entry of the trace.
-
     """
     index = np.searchsorted(trace.evaluations, grid, side="right") - 1
     best = np.array(trace.best)
@@ -198,7 +190,6 @@ def bound_of(ladder: LadderRecord) -> tuple[float | None, BoundProof]:
     seconds : float or None [s]
         The certified bound of the family where it is tight, else the best optimum known.
     proof : BoundProof
-
     """
     rungs = ladder["ladder"]
     lower, optimum = rungs["family_lower"]["seconds"], rungs["family"]["seconds"]
@@ -223,7 +214,6 @@ def best_row(rows: Iterable[Row], *, coding: str | None = None) -> Row | None:
     -------
     Row or None
         None if no row has a verified motion.
-
     """
     found: Row | None = None
     for row in rows:
@@ -245,7 +235,6 @@ def best_claim(rows: Iterable[Row]) -> Row | None:
     -------
     Row or None
         None if no such row has a motion that keeps its limits once it is slowed down.
-
     """
     claims = [
         (row.claimed, index, row)

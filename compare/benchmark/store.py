@@ -22,7 +22,7 @@ from compare.benchmark.grade import Graded, Run, Trace
 from compare.benchmark.known_times import KnownTime
 from compare.benchmark.ladders import LadderRecord, checked_ladder_record
 from compare.benchmark.rows import Row, RunKey, csv_text, read_csv
-from compare.commands import shared as commands
+from compare.files import write_json, write_text
 from formulations import InputError
 
 
@@ -53,7 +53,6 @@ class Store:
     Parameters
     ----------
     folder : Path
-
     """
 
     def __init__(self, folder: Path) -> None:
@@ -81,7 +80,6 @@ class Store:
         ----------
         rows : collection of Row
             Some of the stored rows; their gaps may have been measured again.
-
         """
         kept = {row.key for row in rows}
         others, seen = [], set()
@@ -91,7 +89,7 @@ class Store:
             seen.add(row.key)
         if others:  # first, so that an interrupt loses none
             aside = [row for row in self.set_aside() if row not in others]
-            commands.write_text(self.set_aside_file, csv_text([*aside, *others]))
+            write_text(self.set_aside_file, csv_text([*aside, *others]))
         self._replace(rows, {key: found for key, found in self.traces().items() if key in kept})
 
     def add(self, graded: Graded) -> None:
@@ -100,7 +98,6 @@ class Store:
         Parameters
         ----------
         graded : Graded
-
         """
         _append(self.traces_file, _trace_line(graded.run.key, graded.traces))
         _append(self.rows_file, csv_text([graded.row], header=False))
@@ -111,11 +108,10 @@ class Store:
         Parameters
         ----------
         order : list of Run
-
         """
         place = {run.key: i for i, run in enumerate(order)}
         rows = sorted(self.rows(), key=lambda row: place.get(row.key, len(place)))
-        commands.write_text(self.rows_file, csv_text(rows))
+        write_text(self.rows_file, csv_text(rows))
 
     def rows(self) -> list[Row]:
         """Every whole row as it stands in the file; a last line that was cut short is left out."""
@@ -149,9 +145,8 @@ class Store:
         Parameters
         ----------
         settings : Settings
-
         """
-        commands.write_json(self.folder / "settings.json", asdict(settings))
+        write_json(self.folder / "settings.json", asdict(settings))
 
     def settings(self) -> Settings:
         """What was asked for. Raises InputError if the folder holds no comparison."""
@@ -167,7 +162,6 @@ class Store:
         ----------
         case : str
         ladder : LadderRecord
-
         """
         self._write(f"ladders/{case}.json", ladder)
 
@@ -183,7 +177,6 @@ class Store:
         ----------
         case : str
         lines : list of KnownTime
-
         """
         self._write(f"known_times/{case}.json", [asdict(line) for line in lines])
 
@@ -207,7 +200,6 @@ class Store:
             Digest of the paper's text, versions and machine.
         audits : list of dict
             As `compare.audit.Audit.to_json` gives them.
-
         """
         self._write(f"papers/{paper}/audit.json", {**made_of, "audits": audits})
 
@@ -219,13 +211,13 @@ class Store:
     def _replace(self, rows: Collection[Row], traces: Mapping[RunKey, list[Trace]]) -> None:
         """Write both files anew, each whole or not at all."""
         lines = [_trace_line(key, found) for key, found in traces.items()]
-        commands.write_text(self.rows_file, csv_text(rows))
-        commands.write_text(self.traces_file, "".join(lines))
+        write_text(self.rows_file, csv_text(rows))
+        write_text(self.traces_file, "".join(lines))
 
     def _write(self, name: str, data: Any) -> None:
         path = self.folder / name
         path.parent.mkdir(parents=True, exist_ok=True)
-        commands.write_json(path, data)
+        write_json(path, data)
 
 
 def _read(path: Path) -> Any:

@@ -1,1 +1,121 @@
-"""The commands, one thin file each."""
+"""The commands: one thin file each, and the one list of them, ``COMMANDS``.
+
+A command is a function whose parameters are its options; what it computes stands in the libraries. A
+new one is one file and one line here. Nothing is imported before its command is asked for, so that
+``timebound --help`` answers at once.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+DONE, FAILED, BAD_INPUT, INTERRUPTED = 0, 1, 2, 130  # exit codes
+
+
+@dataclass(frozen=True)
+class Command:
+    """One command of ``timebound``.
+
+    name, and the function behind it as ``module:function``; purpose: one line of help; example: a call
+    of it; group: under which title it is listed.
+    """
+
+    name: str
+    target: str
+    group: str
+    purpose: str
+    example: str
+
+
+MOTIONS, COMPARISON = "Motions and bounds", "Comparison of swarms"
+PAPERS, STUDIES = "Published results", "Studies"
+
+_ALL = (
+    Command(
+        "solve", "compare.commands.solve:solve", MOTIONS,
+        "Find every bound of one problem, and what limits its fastest motion.",
+        "timebound solve sr4c --json sr4c.json",
+    ),
+    Command(
+        "plan", "compare.commands.plan:plan", MOTIONS,
+        "Find the fastest motion through the waypoints, also with stops or given times.",
+        "timebound plan ur5 --stop 1 --pass 2=12.5 --export ur5.csv --rate 125",
+    ),
+    Command(
+        "split", "compare.commands.split:split", MOTIONS,
+        "Show where a swarm's motion loses its time: search, spline, timing, path.",
+        "timebound split sr4c --swarm pso --figure split.svg",
+    ),
+    Command(
+        "motion_picture", "compare.commands.motion_picture:motion_picture", MOTIONS,
+        "Draw the arm of a case as it moves along the fastest spline (SVG).",
+        "timebound motion_picture sr4c --out sr4c.svg",
+    ),
+    Command(
+        "check_certificate", "compare.commands.check_certificate:check_certificate", MOTIONS,
+        "Prove a certified bound again, by a checker that shares no code with the prover.",
+        "timebound check_certificate sr4c.cert.json --problem sr4c",
+    ),
+    Command(
+        "all", "compare.commands.all:compare_all", COMPARISON,
+        "Grade every swarm on every case, audit the papers, and write the report.",
+        "timebound all --cases sr4c,ur5 --swarms pso,mipso --seeds 30 --out report",
+    ),
+    Command(
+        "report", "compare.commands.report:report", COMPARISON,
+        "Draw the report of a comparison again from its stored rows.",
+        "timebound report report",
+    ),
+    Command(
+        "audit", "compare.commands.audit:audit_papers", PAPERS,
+        "Judge published results: are limits kept, could they be that fast?",
+        "timebound audit sr4c --json audit.json",
+    ),
+    Command(
+        "papers", "compare.commands.papers:papers", PAPERS,
+        "Make the tables and figures of the five papers again, beside the printed ones.",
+        'timebound papers sr4c --item "Table 9" --out report',
+    ),
+    Command(
+        "table8", "compare.commands.studies.table8:table8", PAPERS,
+        "Run Table 8 of Wang 2025 again, beside the bound that no run can beat.",
+        "timebound table8 --runs 1000 --out report",
+    ),
+    Command(
+        "ablation", "compare.commands.studies.ablation:ablation", PAPERS,
+        "Run Table 3 of Wang 2025 again: MIPSO without one strategy at a time.",
+        "timebound ablation --full --out report",
+    ),
+    Command(
+        "readings", "compare.commands.studies.readings:readings", PAPERS,
+        "Run each formula as printed and as it can be meant, and show the difference.",
+        "timebound readings --seeds 30 --out report",
+    ),
+    Command(
+        "bias", "compare.commands.studies.bias:bias", STUDIES,
+        "Measure which swarms are drawn to zero.",
+        "timebound bias --swarms pso,whale,sparrow --seeds 30 --out report",
+    ),
+    Command(
+        "proofs", "compare.commands.studies.proofs:proofs", STUDIES,
+        "Measure what a certified bound costs, on random problems.",
+        "timebound proofs --count 1000 --segments 10 --out report",
+    ),
+    Command(
+        "speed", "compare.commands.studies.speed:speed", STUDIES,
+        "Count candidate checks per second, beside the papers' way.",
+        "timebound speed --case ur5",
+    ),
+    Command(
+        "free_form_study", "compare.commands.studies.free_form_study:free_form_study", STUDIES,
+        "Find the fastest motion on cases, extremes and random problems, and its gap.",
+        "timebound free_form_study --count 200 --json answers.json",
+    ),
+    Command(
+        "rivals", "compare.commands.studies.rivals:rivals", STUDIES,
+        "Set the fastest motion beside Drake and pyroboplan.",
+        "timebound rivals --rivals drake --points 20",
+    ),
+)  # fmt: skip
+
+COMMANDS: dict[str, Command] = {command.name: command for command in _ALL}

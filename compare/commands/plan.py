@@ -1,98 +1,98 @@
-"""``python -m compare.plan FILE``: the fastest motion alone, under further conditions."""
+"""``timebound plan FILE``: the fastest motion alone, under further conditions."""
 
 from __future__ import annotations
 
-import argparse
-import sys
 from math import isfinite
-from pathlib import Path
+from typing import Annotated
 
 import numpy as np
+from cyclopts import Parameter
 
-from compare.commands import shared as commands
-from formulations import Conditions, FreeForm, InputError, NoFeasibleMotion, free_form, load
+from compare.commands import DONE
+from compare.commands.options import Export, Gap, Json, ProblemFile, Rate
+from compare.screen import show, stages
+from formulations import Conditions, FreeForm, InputError, NoFeasibleMotion, Problem, free_form, load
 from formulations.motion.motion_file import write_motion
 from formulations.problem.arrays import Array
-from formulations.problem.problem import Problem
+
+Velocities = Annotated[str | None, Parameter(metavar="V,V,..", allow_leading_hyphen=True)]
 
 
-def main() -> int:
-    """Plan one motion."""
-    parser = commands.parser(
-        "plan",
-        "The fastest motion through the waypoints of a problem, or the smoothest in a given time.\n"
-        "Waypoints count from 0, the start.",
-        "python -m compare.plan ur5 --stop 1 --pass 2=12.5 --export ur5.csv --rate 125",
-    )
-    parser.add_argument("file", metavar="FILE", help="a problem file (TOML) or a shipped case")
-    parser.add_argument(
-        "--stop", type=int, action="append", default=[], metavar="K", help="stand still at waypoint K"
-    )
-    parser.add_argument(
-        "--pass", dest="passage", action="append", default=[], metavar="K=T",
-        help="pass waypoint K at T seconds",
-    )  # fmt: skip
-    parser.add_argument(
-        "--total", type=float, metavar="T", help="take T seconds, as smoothly as can be"
-    )
-    for end in ("start", "end"):
-        parser.add_argument(
-            f"--{end}-velocity", metavar="V,V,..", help="velocity there, one per joint [rad/s]"
-        )
-    parser.add_argument("--gap", type=float, default=1e-3, help="relative tolerance aimed at")
-    parser.add_argument("--export", metavar="FILE", help="write the motion (.csv or .json)")
-    parser.add_argument(
-        "--rate", type=float, help="points a second in that file; left out: where the pieces meet"
-    )
-    parser.add_argument("--json", metavar="OUT", help="write times and judged peaks as JSON")
-    options = parser.parse_args()
-    problem = load(options.file)
-    live = sys.stderr.isatty()
+def plan(
+    file: ProblemFile,
+    /,
+    *,
+    stop: Annotated[list[int] | None, Parameter(metavar="K")] = None,
+    passage: Annotated[list[str] | None, Parameter(name="--pass", metavar="K=T")] = None,
+    total: Annotated[float | None, Parameter(metavar="T")] = None,
+    start_velocity: Velocities = None,
+    end_velocity: Velocities = None,
+    gap: Gap = 1e-3,
+    export: Export = None,
+    rate: Rate = None,
+    json: Json = None,
+) -> int:
+    """Find the fastest motion through the waypoints of a problem, or the smoothest in a given time.
 
-    def progress(stage: str, seconds: float) -> None:
-        if live:
-            print(f"\r\033[K{stage}: {seconds:.6g} s", end="", file=sys.stderr, flush=True)
+    Waypoints count from 0, the start. --stop and --pass can be given several times.
 
+    Parameters
+    ----------
+    stop
+        Stand still at waypoint K.
+    passage
+        Pass waypoint K at T seconds.
+    total
+        Take T seconds, as smoothly as possible.
+    start_velocity
+        Velocity at the start, one number per joint [rad/s].
+    end_velocity
+        Velocity at the end, one number per joint [rad/s].
+    """
+    problem = load(file)
+    conditions = Conditions(
+        passage=_passages(passage or []),
+        total=total,
+        stops=frozenset(stop or []),
+        start_velocity=_velocity("--start-velocity", start_velocity, problem),
+        end_velocity=_velocity("--end-velocity", end_velocity, problem),
+    )
     try:
-        found = free_form(
-            problem, conditions=_conditions(options, problem), tolerance=options.gap, progress=progress
-        )
-    except NoFeasibleMotion as none:
-        raise InputError(str(none)) from None
-    finally:
-        if live:
-            print("\r\033[K", end="", file=sys.stderr)
-    print(as_text(problem, found))
-    if options.export and found.trajectory is None:
-        raise InputError("--export: nothing moves")
-    if options.export and found.trajectory is not None:
-        write_motion(options.export, found.trajectory, rate=options.rate)
-        print(f"\n{options.export}: written")
-    if options.json:
-        commands.write_json(Path(options.json), _as_json(problem, found))
-    return commands.DONE
+        with stages(problem.name) as stage:
+            found = free_form(
+                problem,
+                conditions=conditions,
+                tolerance=gap,
+                progress=lambda what, seconds: stage(f"{what}: {seconds:.6g} s"),
+            )
+    except NoFeasibleMotion as reason:
+        raise NoFeasibleMotion(f"{problem.name}: {reason}") from None
+    text = as_text(problem, found)
+    if export is not None:
+        if found.trajectory is None:
+            raise InputError("--export: no joint moves, so there is no motion to write")
+        write_motion(export, found.trajectory, rate=rate)
+        text += f"\n\n{export}: written"
+    show(text, as_json(problem, found), json)
+    return DONE
 
 
-def _conditions(options: argparse.Namespace, problem: Problem) -> Conditions:
-    passage = {}
-    for text in options.passage:
+def _passages(texts: list[str]) -> dict[int, float]:
+    """Passage times [s] by waypoint."""
+    passages = {}
+    for text in texts:
         waypoint, separator, time = text.partition("=")
         try:
-            passage[int(waypoint)] = float(time)
+            passages[int(waypoint)] = float(time)
         except ValueError:
             separator = ""
         if not separator:
             raise InputError(f"--pass: {text!r} is not of the form K=T, such as 2=1.5")
-    return Conditions(
-        passage=passage,
-        total=options.total,
-        stops=frozenset(options.stop),
-        start_velocity=_velocity("--start-velocity", options.start_velocity, problem),
-        end_velocity=_velocity("--end-velocity", options.end_velocity, problem),
-    )
+    return passages
 
 
 def _velocity(key: str, text: str | None, problem: Problem) -> Array | None:
+    """Velocities of the joints, (dof,) [rad/s]."""
     if text is None:
         return None
     try:
@@ -105,7 +105,20 @@ def _velocity(key: str, text: str | None, problem: Problem) -> Array | None:
 
 
 def as_text(problem: Problem, found: FreeForm) -> str:
-    """Total, passage times, and the limits used most, as judged."""
+    """Say how long the motion takes, when it passes the waypoints, and which limits it uses most.
+
+    Parameters
+    ----------
+    problem : Problem
+        The task.
+    found : FreeForm
+        Its motion, judged.
+
+    Returns
+    -------
+    str
+        The lines.
+    """
     lines = [f"{problem.name}: {found.seconds:.9g} s ({found.method}, {found.status})"]
     if found.trajectory is None or found.verdict is None:
         return lines[0]
@@ -117,7 +130,21 @@ def as_text(problem: Problem, found: FreeForm) -> str:
     return "\n".join([*lines, *found.notes])
 
 
-def _as_json(problem: Problem, found: FreeForm) -> dict[str, object]:
+def as_json(problem: Problem, found: FreeForm) -> dict[str, object]:
+    """The same as plain data, with every peak.
+
+    Parameters
+    ----------
+    problem : Problem
+        The task.
+    found : FreeForm
+        Its motion, judged.
+
+    Returns
+    -------
+    dict
+        Ready for strict JSON.
+    """
     passed = [] if found.trajectory is None else found.trajectory.passage_times.tolist()
     return {
         "problem": problem.name,
@@ -132,7 +159,3 @@ def _as_json(problem: Problem, found: FreeForm) -> dict[str, object]:
         ],
         "runtime": found.runtime,
     }
-
-
-if __name__ == "__main__":
-    commands.run(main)

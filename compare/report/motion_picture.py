@@ -1,4 +1,4 @@
-"""``python -m compare.motion_picture CASE``: the arm as a stick figure that moves, one small SVG.
+"""The arm of a case as a stick figure that moves, one small SVG.
 
 Two views of the same motion in true time, the tool's path and the waypoints in each. The animation is
 SMIL: it runs wherever a browser shows the picture, without a script; elsewhere, and for readers who
@@ -10,13 +10,11 @@ from __future__ import annotations
 from collections.abc import Sequence
 from dataclasses import dataclass
 from html import escape
-from pathlib import Path
 
 import numpy as np
 
-from compare.commands import shared as commands
 from compare.report.style import BLUE, GREEN, GREY, VERMILION
-from formulations import FAMILIES, InputError, Problem, Trajectory, family_optimum, load
+from formulations import FAMILIES, InputError, Problem, Trajectory
 from formulations.arms import ARMS, Arm, load_arm
 from formulations.problem.arrays import Array
 
@@ -198,29 +196,3 @@ def _points(points: Array) -> str:
 
 def _still(points: Array, style: str) -> str:
     return f'<polyline points="{_points(points)}" {style}/>'
-
-
-def main() -> int:
-    """Write the family optimum of a case as a motion picture."""
-    parser = commands.parser(
-        "motion_picture",
-        "The fastest spline of a case, shown as the arm that moves along it.",
-        "python -m compare.motion_picture sr4c --out sr4c.svg",
-    )
-    parser.add_argument("case", metavar="CASE", help=f"a shipped case with an arm ({', '.join(ARMS)})")
-    parser.add_argument("--out", metavar="FILE", help="where to write it; CASE.svg if left out")
-    options = parser.parse_args()
-    if arm_of(options.case) is None:
-        raise InputError(f"motion picture: no arm is known for {options.case!r} ({', '.join(ARMS)})")
-    problem = load(options.case)
-    optimum = family_optimum(problem)
-    picture = fastest_spline(options.case, problem, optimum.durations)
-    assert picture is not None
-    out = Path(options.out or f"{options.case}.svg")
-    commands.write_text(out, picture)
-    print(f"{out}: {optimum.seconds:.4f} s, {out.stat().st_size / 1000:.0f} kB")
-    return commands.DONE
-
-
-if __name__ == "__main__":
-    commands.run(main)

@@ -1,4 +1,4 @@
-"""``python -m compare.report DIR``: the report of a comparison, rendered from its store alone."""
+"""The report of a comparison, rendered from its store alone."""
 
 from __future__ import annotations
 
@@ -17,20 +17,14 @@ from compare.benchmark.ladders import LadderRecord
 from compare.benchmark.objective import CODINGS
 from compare.benchmark.rejudge import judged_again
 from compare.benchmark.rows import Row, RowStatus
-from compare.benchmark.run import each, workers
-from compare.benchmark.statistics import (
-    Summary,
-    best_claim,
-    best_row,
-    bound_of,
-    summaries,
-)
+from compare.benchmark.run import each
+from compare.benchmark.statistics import Summary, best_claim, best_row, bound_of, summaries
 from compare.benchmark.store import Settings, Store
-from compare.commands import shared as commands
+from compare.files import write_text
 from compare.report.figures.case import draw_case
 from compare.report.papers_at_a_glance import papers_at_a_glance
 from compare.studies.study import STUDIES
-from formulations import RUNGS, Problem, load
+from formulations import RUNGS, Problem
 from metaheuristics import ALGORITHMS, GROUPS, NOT_REPRODUCIBLE
 
 FIGURES = {
@@ -76,7 +70,6 @@ def render(pool: Executor, folder: Path, problems: dict[str, Problem], settings:
     -------
     Path
         The page.
-
     """
     store = Store(folder)
     ladders, traces = store.ladders(), store.traces()
@@ -102,7 +95,7 @@ def render(pool: Executor, folder: Path, problems: dict[str, Problem], settings:
     }
     pages = environment(folder)
     for name in ("report.md", "index.html"):
-        commands.write_text(folder / name, pages.get_template(f"{name}.j2").render(context))
+        write_text(folder / name, pages.get_template(f"{name}.j2").render(context))
     return folder / "index.html"
 
 
@@ -113,7 +106,6 @@ def environment(folder: Path) -> jinja2.Environment:
     ----------
     folder : Path
         Folder of the report; ``inline(NAME)`` puts DIR/NAME.svg into a page.
-
     """
     made = jinja2.Environment(
         loader=jinja2.PackageLoader("compare.report"),
@@ -145,7 +137,6 @@ def papers_context(store: Store, folder: Path, cases: list[str]) -> dict[str, An
     -------
     dict
         For the templates: ``papers``, ``pages``, ``chapters``, ``known_times``, ``arms``.
-
     """
     audits, known = store.audits(), store.known_times()
     written = {case: f"papers/{key_of_paper(case)}.html" for case in cases}
@@ -166,7 +157,6 @@ def percent(gap: float | None) -> str:
     Parameters
     ----------
     gap : float or None
-
     """
     if gap is None:
         return "none"
@@ -282,28 +272,3 @@ def _shade(gap: float | None) -> str:
 
 def _inline(path: Path) -> str:
     return "data:image/svg+xml;base64," + base64.b64encode(path.read_bytes()).decode()
-
-
-def main() -> int:
-    """Render again, without running anything."""
-    parser = commands.parser(
-        "report",
-        "Draw the report of a comparison again, from its rows.",
-        "python -m compare.report report",
-    )
-    parser.add_argument("folder", metavar="DIR", help="folder that compare.all wrote")
-    parser.add_argument("--jobs", type=int, default=2, help="worker processes")
-    options = parser.parse_args()
-    folder = Path(options.folder)
-    store = Store(folder)
-    jobs = commands.positive("--jobs", options.jobs)
-    settings = store.settings()
-    problems = {case: load(case) for case in settings.cases}
-    with workers(jobs) as pool:
-        page = render(pool, folder, problems, settings)
-    print(f"report: {page}")
-    return commands.DONE
-
-
-if __name__ == "__main__":
-    commands.run(main)

@@ -37,7 +37,6 @@ class PaperAtAGlance:
         The fastest motion known.
     faults : tuple of (kind, count, proved)
         Kinds of fault that were found, how often, and whether one of them is proved.
-
     """
 
     key: str
@@ -70,7 +69,6 @@ def papers_at_a_glance(
         By case.
     ladders : mapping of str to LadderRecord
         By case.
-
     """
     found = [
         _line(key, data, known_times.get(data["paper"], ()), ladders.get(data["paper"]))

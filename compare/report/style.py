@@ -42,7 +42,6 @@ def styled(draw: Callable[P, Figure]) -> Callable[P, Figure]:
     ----------
     draw : callable
         Any function that returns a figure.
-
     """
 
     @wraps(draw)

@@ -1,33 +1,29 @@
-"""``python -m compare.bias``: which swarms are drawn to x = 0, and by how much.
+"""Which swarms are drawn to x = 0, and by how much: the study behind ``timebound bias``.
 
-Two tests. Functions of ten coordinates whose optimum is the centre of the box, x = 0; with all moved
-away from zero together; and with the optimum at a random place of the box. And arm problems in the
-stretched coding with coordinates as printed, mirrored and offset. A search that does not know where
-zero is has the ratio 1; one that knows where the box's centre is shows in the shifted functions alone.
+There are two tests. The first has functions of ten coordinates: with the optimum in the centre of the
+box, at x = 0; with box and optimum moved away from zero together; and with the optimum moved to a
+random place of the box. The second has arm problems in the stretched coding, with the coordinates as
+printed, mirrored and offset. A search that does not know where zero is has the ratio 1 everywhere. A
+search that is drawn to the centre of the box differs in the shifted functions alone.
 """
 
 from __future__ import annotations
 
-import os
 from collections.abc import Callable
-from concurrent.futures import ProcessPoolExecutor
 from dataclasses import dataclass
 from functools import partial
-from pathlib import Path
 from typing import Any
 
 import matplotlib.pyplot as plt
 import numpy as np
 from matplotlib.figure import Figure
 
-from compare.benchmark import suite
 from compare.benchmark.objective import Objective, search_box
-from compare.benchmark.run import workers
-from compare.commands import shared as commands
 from compare.report.style import BLUE, GREY, ORANGE, PURPLE, VERMILION, styled
+from compare.screen import table
 from compare.studies.origin_shift import COORDINATES, seen_in
-from compare.studies.study import collect, finish
-from formulations import CASES, Problem, family_optimum, load
+from compare.studies.study import Call, Study
+from formulations import Problem, family_optimum, load
 from formulations.problem.arrays import Array
 from metaheuristics import algorithm, minimise
 
@@ -37,18 +33,51 @@ FLOOR_FUNCTION, FLOOR_GAP = 1e-15, 1e-9  # errors below are rounding
 
 
 def sphere(x: Array) -> Array:
-    """Sum of squares."""
+    """Sum of squares.
+
+    Parameters
+    ----------
+    x : Array, shape (n, DIM)
+        Points of the box.
+
+    Returns
+    -------
+    Array, shape (n,)
+        Values; 0 at x = 0.
+    """
     return np.asarray((x**2).sum(axis=1))
 
 
 def rastrigin(x: Array) -> Array:
-    """Many local optima on a grid of 1 (Rastrigin 1974), scaled to the box."""
+    """A function with many local optima on a grid (Rastrigin 1974), scaled to the box.
+
+    Parameters
+    ----------
+    x : Array, shape (n, DIM)
+        Points of the box.
+
+    Returns
+    -------
+    Array, shape (n,)
+        Values; 0 at x = 0.
+    """
     z = x * 5.12 / HALF
     return np.asarray((z**2 - 10 * np.cos(2 * np.pi * z) + 10).sum(axis=1))
 
 
 def ackley(x: Array) -> Array:
-    """A narrow hole in a rough plain (Ackley 1987), scaled to the box."""
+    """A narrow hole in a rough plain (Ackley 1987), scaled to the box.
+
+    Parameters
+    ----------
+    x : Array, shape (n, DIM)
+        Points of the box.
+
+    Returns
+    -------
+    Array, shape (n,)
+        Values; 0 at x = 0.
+    """
     z = x * 32.0 / HALF
     root = np.sqrt((z**2).mean(axis=1))
     cosines = np.cos(2 * np.pi * z).mean(axis=1)
@@ -63,6 +92,8 @@ FUNCTIONS: dict[str, Callable[[Array], Array]] = {
 }
 
 
+Summary = dict[str, dict[str, float | None]]
+
 # there: (here, in words, colour, marker)
 COMPARED = {
     "translated": ("centre", "functions: zero moved far away, all else the same", VERMILION, "o"),
@@ -73,7 +104,7 @@ COMPARED = {
 
 
 @dataclass(frozen=True)
-class Row:
+class BiasRun:
     """One run. place: a key of COMPARED, or what it is compared with. error: f - f*, or the gap [1]."""
 
     task: str
@@ -86,8 +117,25 @@ class Row:
     status: str
 
 
-def on_function(name: str, swarm: str, seeds: int, budget: int) -> list[Row]:
-    """A swarm on a function in each place; seed by seed the same shift for all swarms."""
+def on_function(name: str, swarm: str, seeds: int, budget: int) -> list[BiasRun]:
+    """Run a swarm on a function with its optimum in each place.
+
+    Parameters
+    ----------
+    name : str
+        A key of FUNCTIONS.
+    swarm : str
+        An algorithm, by name.
+    seeds : int
+        Number of seeds; the shift of a seed is the same for all swarms.
+    budget : int
+        Evaluations per run.
+
+    Returns
+    -------
+    list of BiasRun
+        A row per seed and place.
+    """
     rows = []
     for seed in range(seeds):
         shift = np.random.default_rng([seed, 17]).uniform(-SHIFT, SHIFT, DIM) * HALF
@@ -103,8 +151,29 @@ def on_function(name: str, swarm: str, seeds: int, budget: int) -> list[Row]:
 
 def on_arm(
     case: str, problem: Problem, optimum: float, swarm: str, seeds: int, budget: int
-) -> list[Row]:
-    """A swarm on an arm problem in each of the coordinates."""
+) -> list[BiasRun]:
+    """Run a swarm on an arm problem in each of the coordinates.
+
+    Parameters
+    ----------
+    case : str
+        Name of the problem.
+    problem : Problem
+        The problem.
+    optimum : float
+        Optimum of its family [s].
+    swarm : str
+        An algorithm, by name.
+    seeds : int
+        Number of seeds.
+    budget : int
+        Evaluations per run.
+
+    Returns
+    -------
+    list of BiasRun
+        A row per coordinates and seed.
+    """
     gap = partial(_gap, Objective(problem, stretch=True), optimum)
     return [
         _run(case, name, swarm, seed, budget, *seen_in(name, gap, *search_box(problem)))
@@ -130,26 +199,35 @@ def _run(
     f: Callable[[Array], Array],
     lo: Array,
     hi: Array,
-) -> Row:
+) -> BiasRun:
     entry = algorithm(swarm)
-    result = minimise(entry.search(), f, lo, hi, budget=budget, seed=seed, **entry.parameters)
+    result = minimise(entry.function, f, lo, hi, budget=budget, seed=seed, **entry.parameters)
     error = None if result.x is None else result.fitness
-    return Row(task, place, swarm, entry.versions, seed, budget, error, result.status.value)
+    return BiasRun(task, place, swarm, entry.versions, seed, budget, error, result.status.value)
 
 
-def summarise(rows: list[Row]) -> dict[str, dict[str, float | None]]:
-    """By swarm and comparison: the ratio of median errors, there over here.
+def summarise(rows: list[BiasRun]) -> Summary:
+    """Take the ratio of median errors, there over here, by swarm and comparison.
 
-    Geometric means over the tasks; None where some task was never solved.
+    Parameters
+    ----------
+    rows : list of BiasRun
+        All runs.
+
+    Returns
+    -------
+    dict
+        Ratio [1] by swarm and key of COMPARED, the geometric mean over the tasks; None where some
+        task was never solved.
     """
-    found: dict[str, dict[str, float | None]] = {}
+    found: Summary = {}
     for swarm in dict.fromkeys(row.swarm for row in rows):
         mine = [row for row in rows if row.swarm == swarm]
         found[swarm] = {there: _ratio(mine, there, here) for there, (here, *_) in COMPARED.items()}
     return found
 
 
-def _ratio(rows: list[Row], there: str, here: str) -> float | None:
+def _ratio(rows: list[BiasRun], there: str, here: str) -> float | None:
     floor = FLOOR_FUNCTION if here == "centre" else FLOOR_GAP
     ratios = []
     for task in dict.fromkeys(row.task for row in rows if row.place == here):
@@ -165,8 +243,21 @@ def _ratio(rows: list[Row], there: str, here: str) -> float | None:
 
 
 @styled
-def bias_figure(summary: dict[str, dict[str, float | None]]) -> Figure:
-    """A row per swarm, three marks."""
+def bias_figure(rows: list[BiasRun], summary: Summary) -> Figure:
+    """Draw a line per swarm with a mark per comparison.
+
+    Parameters
+    ----------
+    rows : list of BiasRun
+        All runs.
+    summary : dict
+        Of ``summarise``.
+
+    Returns
+    -------
+    Figure
+        The picture.
+    """
     figure, axes = plt.subplots(figsize=(9.0, 1.3 + 0.24 * len(summary)))
     axes.axvspan(0.1, 10.0, color=GREY, alpha=0.12, lw=0)
     for y, ratios in enumerate(summary.values()):
@@ -187,72 +278,70 @@ def bias_figure(summary: dict[str, dict[str, float | None]]) -> Figure:
     return figure
 
 
-def study(
-    pool: ProcessPoolExecutor,
-    folder: Path,
-    *,
-    cases: list[str],
-    functions: list[str],
-    swarms: list[str],
-    seeds: int,
-    budget: int,
-) -> dict[str, dict[str, float | None]]:
-    """Run all, write DIR/bias.csv, bias.json and the picture."""
-    calls: list[tuple[Any, ...]] = [
-        (on_function, f, s, seeds, budget) for s in swarms for f in functions
-    ]
-    for case in cases:
-        problem = load(case)
-        optimum = family_optimum(problem).seconds
-        calls += [(on_arm, case, problem, optimum, s, seeds, budget) for s in swarms]
-    rows = collect(pool, folder, "bias", _apply, calls, list(Row.__annotations__))
-    rows.sort(key=lambda row: (swarms.index(row.swarm), row.task, row.place, row.seed))
-    summary = summarise(rows)
-    finish(folder, "bias", summary, bias_figure(summary))
-    return summary
+def as_text(rows: list[BiasRun], summary: Summary) -> str:
+    """Lay the ratios out as a table, a line per swarm.
 
+    Parameters
+    ----------
+    rows : list of BiasRun
+        All runs.
+    summary : dict
+        Of ``summarise``.
 
-def _apply(function: Callable[..., list[Row]], *arguments: Any) -> list[Row]:
-    return function(*arguments)
-
-
-def as_text(summary: dict[str, dict[str, float | None]]) -> str:
-    """A line per swarm."""
+    Returns
+    -------
+    str
+        The table.
+    """
     lines = [
         [swarm, *("none" if r is None else f"{r:.3g}" for r in ratios.values())]
         for swarm, ratios in summary.items()
     ]
     header = ["swarm", *(f"{there} / {here}" for there, (here, *_) in COMPARED.items())]
-    return commands.table(header, lines, right=range(1, len(header)))
+    return table(header, lines, right=range(1, len(header)))
 
 
-def main() -> int:
-    """Measure the bias of every swarm."""
-    parser = commands.parser(
-        "bias",
-        "How much worse each swarm does when the optimum, or zero, is moved.",
-        "python -m compare.bias --swarms pso,whale,sparrow --seeds 30 --out report",
-    )
-    parser.add_argument("--swarms", help="as in compare.all")
-    parser.add_argument("--cases", default="sr4c,ur5,cobot,bagging", help=f"some of {','.join(CASES)}")
-    parser.add_argument("--seeds", type=int, default=10, help="number of seeds")
-    parser.add_argument("--budget", type=int, default=5000, help="evaluations per run")
-    parser.add_argument("--out", default="report", metavar="DIR", help="folder of the report")
-    parser.add_argument("--jobs", type=int, default=os.cpu_count() or 1, help="worker processes")
-    options = parser.parse_args()
-    for key in ("seeds", "budget", "jobs"):
-        commands.positive(f"--{key}", getattr(options, key))
-    swarms = commands.swarms("--swarms", options.swarms, suite.swarms_of("default"))
-    cases = commands.chosen("--cases", options.cases, CASES)
-    folder = commands.output_folder(options.out)
-    with workers(options.jobs) as pool:
-        summary = study(
-            pool, folder, cases=cases, functions=list(FUNCTIONS), swarms=swarms,
-            seeds=options.seeds, budget=options.budget,
-        )  # fmt: skip
-    print(as_text(summary))
-    return commands.DONE
+def calls(
+    functions: list[str], cases: list[str], swarms: list[str], seeds: int, budget: int
+) -> list[Call]:
+    """List the calls of the study; the optimum of each arm problem is computed here.
+
+    Parameters
+    ----------
+    functions : list of str
+        Keys of FUNCTIONS.
+    cases : list of str
+        Shipped cases.
+    swarms : list of str
+        Algorithms, by name.
+    seeds : int
+        Number of seeds.
+    budget : int
+        Evaluations per run.
+
+    Returns
+    -------
+    list of tuples
+        Arguments of ``STUDY.compute``.
+    """
+    problems = {case: load(case) for case in cases}
+    optima = {case: family_optimum(problem).seconds for case, problem in problems.items()}
+    found: list[Call] = []
+    for swarm in swarms:
+        found += [(on_function, name, swarm, seeds, budget) for name in functions]
+        found += [(on_arm, case, problems[case], optima[case], swarm, seeds, budget) for case in cases]
+    return found
 
 
-if __name__ == "__main__":
-    commands.run(main)
+def _compute(function: Callable[..., list[BiasRun]], *arguments: Any) -> list[BiasRun]:
+    return function(*arguments)
+
+
+STUDY = Study(
+    name="bias",
+    row=BiasRun,
+    compute=_compute,
+    summarise=summarise,
+    text=as_text,
+    figure=bias_figure,
+)

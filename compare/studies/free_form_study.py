@@ -1,30 +1,27 @@
-"""``python -m compare.free_form_study``: the fastest motion on shipped cases, extremes and random problems.
+"""The fastest motion on cases, extremes and random problems: behind ``timebound free_form_study``.
 
-A benchmark command, not a test: every answer is judged by the independent check and set beside Ruckig
-with a full stop at each waypoint and beside the certified bound on every motion there is. Limits of
-the random problems: Franka Panda, whose jerk limits are very high (Franka Control Interface
-documentation, "Robot and interface specifications"), and UFACTORY xArm6, whose jerk limit is low
-(UFACTORY docs, "Guide to run robotic arm at the maximum speed": 180 deg/s, 1146 deg/s^2,
-28647 deg/s^3 for every joint).
+Every answer is judged by the independent check. Beside it stand Ruckig with a full stop at each
+waypoint, and the certified bound on every motion there is. The random problems have the limits of two
+arms: Franka Panda, whose jerk limits are very high (Franka Control Interface documentation, "Robot and
+interface specifications"), and UFACTORY xArm6, whose jerk limit is low (UFACTORY docs, "Guide to run
+robotic arm at the maximum speed": 180 deg/s, 1146 deg/s^2, 28647 deg/s^3 for every joint).
 """
 
 from __future__ import annotations
 
 import time
 from collections.abc import Iterator
-from dataclasses import dataclass, replace
-from pathlib import Path
+from dataclasses import asdict, dataclass, replace
+from typing import Any
 
 import numpy as np
 from numpy.typing import ArrayLike
-from tqdm import tqdm
 
-from compare.benchmark.run import machine
-from compare.commands import shared as commands
+from compare.screen import table
+from compare.studies.study import Call, Study
 from formulations import (
     CASES,
     REFERENCES,
-    InputError,
     Limits,
     Problem,
     check,
@@ -47,18 +44,20 @@ ARMS = {
 
 
 @dataclass(frozen=True)
-class Answer:
+class FreeFormAnswer:
     """One problem: times [s] of the motion, of stop and go and of the bound, and what they took.
 
-    runtime: on the wall, cpu: of this process; both in s, and the same on a machine that is idle.
-    proof: s on the wall for the bound, which is asked for ``gap`` at most.
+    series: cases, extremes or random. stop_and_go: None where Ruckig has no answer. runtime: on the
+    wall, cpu: of this process; both in s, and the same on an idle machine. proof: time on the wall for
+    the bound [s].
     """
 
+    series: str
     name: str
     dof: int
     segments: int
     seconds: float
-    stop_and_go: float
+    stop_and_go: float | None
     bound: float
     feasible: bool
     status: str
@@ -69,12 +68,12 @@ class Answer:
 
     @property
     def gap(self) -> float:
-        """Seconds over the bound, less one; below 0 only if one of the two is wrong."""
+        """Seconds over the bound, minus 1; below 0 only if one of the two is wrong."""
         return self.seconds / self.bound - 1.0
 
 
 def cases() -> Iterator[Problem]:
-    """The shipped cases, and ``sr4c`` with a jerk limit of five times the acceleration per second."""
+    """Load the shipped cases, and ``sr4c`` with a jerk limit of five times the acceleration per second."""
     for name in CASES:
         problem = load(name)
         yield problem
@@ -88,7 +87,20 @@ def cases() -> Iterator[Problem]:
 
 
 def random_problems(count: int, seed: int) -> Iterator[Problem]:
-    """Two to ten waypoints, uniform within the reach, the arms in turn."""
+    """Draw problems of two to ten waypoints, uniform within the reach, the arms in turn.
+
+    Parameters
+    ----------
+    count : int
+        How many.
+    seed : int
+        Seed of the random numbers.
+
+    Yields
+    ------
+    Problem
+        The same for the same seed.
+    """
     rng = np.random.default_rng(seed)
     for index in range(count):
         arm = list(ARMS)[index % len(ARMS)]
@@ -98,7 +110,9 @@ def random_problems(count: int, seed: int) -> Iterator[Problem]:
 
 
 def extremes() -> Iterator[Problem]:
-    """Few and many joints and waypoints, very short and very long ways, limits far apart, joints at rest."""
+    """State problems with few and many joints and waypoints, very short and very long displacements,
+    limits far apart, and joints at rest.
+    """
     rng = np.random.default_rng(0)
 
     def drawn(waypoints: int, dof: int) -> Array:
@@ -118,9 +132,9 @@ def extremes() -> Iterator[Problem]:
         "30 waypoints, 6 joints": (drawn(30, 6), Limits.of(*usual, dof=6)),
         "30 waypoints, 12 joints": (drawn(30, 12), Limits.of(*usual, dof=12)),
         "4 waypoints, 12 joints": (drawn(4, 12), Limits.of(*usual, dof=12)),
-        "ways of 1e-6 rad": (decades(-6, -6, 5, 6), Limits.of(*usual, dof=6)),
-        "ways of 1e3 rad": (decades(3, 3, 5, 6), Limits.of(*usual, dof=6)),
-        "ways from 1e-6 to 1e3 rad": (decades(-6, 3, 5, 6), Limits.of(*usual, dof=6)),
+        "displacements of 1e-6 rad": (decades(-6, -6, 5, 6), Limits.of(*usual, dof=6)),
+        "displacements of 1e3 rad": (decades(3, 3, 5, 6), Limits.of(*usual, dof=6)),
+        "displacements from 1e-6 to 1e3 rad": (decades(-6, 3, 5, 6), Limits.of(*usual, dof=6)),
         "limits 1e4 apart": (drawn(5, 3), apart),
         "joints and waypoints at rest": (rest, Limits.of(1, 2, 5, dof=2)),
         "two equal waypoints, 6 joints": (np.repeat(drawn(4, 6), 2, axis=0), Limits.of(*usual, dof=6)),
@@ -132,119 +146,194 @@ def extremes() -> Iterator[Problem]:
         yield Problem.of(waypoints, limits, name=name)
 
 
-def answered(problem: Problem, tolerance: float, solver: str, gap: float) -> Answer:
-    """Solve and judge one problem, and bound it."""
+def answered(
+    series: str, problem: Problem, tolerance: float, solver: str, gap: float
+) -> list[FreeFormAnswer]:
+    """Solve one problem, judge its motion, and bound it.
+
+    Parameters
+    ----------
+    series : str
+        Where the problem comes from.
+    problem : Problem
+        The problem.
+    tolerance : float
+        Relative tolerance of the motion.
+    solver : str
+        ``ipopt`` or ``highs``.
+    gap : float
+        Relative gap at which the bound is good enough.
+
+    Returns
+    -------
+    list of FreeFormAnswer
+        One row.
+    """
     started, burnt = time.perf_counter(), time.process_time()
     found = free_form(problem, tolerance=tolerance, solver="highs" if solver == "highs" else "ipopt")
     runtime, cpu = time.perf_counter() - started, time.process_time() - burnt
-    rest = REFERENCES["ruckig_stop_and_go"](problem).seconds
     assert found.trajectory is not None  # every problem here moves
     verdict = check(problem, found.trajectory)
-    upper = found.seconds if verdict.feasible else None
-    bound = free_form_bound(problem, gap=gap, upper=upper)
-    return Answer(
-        problem.name,
-        problem.dof,
-        problem.n_segments,
-        found.seconds,
-        np.nan if rest is None else rest,
-        bound.seconds,
-        verdict.feasible,
-        found.status,
-        found.method,
-        runtime,
-        cpu,
-        bound.runtime,
+    bound = free_form_bound(problem, gap=gap, upper=found.seconds if verdict.feasible else None)
+    answer = FreeFormAnswer(
+        series=series,
+        name=problem.name,
+        dof=problem.dof,
+        segments=problem.n_segments,
+        seconds=found.seconds,
+        stop_and_go=REFERENCES["ruckig_stop_and_go"](problem).seconds,
+        bound=bound.seconds,
+        feasible=verdict.feasible,
+        status=found.status,
+        method=found.method,
+        runtime=runtime,
+        cpu=cpu,
+        proof=bound.runtime,
+    )
+    return [answer]
+
+
+def calls(count: int, seed: int, tolerance: float, solver: str, gap: float) -> list[Call]:
+    """List the calls of the study: the cases, the extremes, then random problems.
+
+    Parameters
+    ----------
+    count : int
+        Random problems.
+    seed : int
+        Seed of the random problems.
+    tolerance, solver, gap
+        As ``answered`` takes them.
+
+    Returns
+    -------
+    list of tuples
+        Arguments of ``answered``.
+    """
+    drawn = {"cases": cases(), "extremes": extremes(), "random": random_problems(count, seed)}
+    return [
+        (series, problem, tolerance, solver, gap)
+        for series, problems in drawn.items()
+        for problem in problems
+    ]
+
+
+@dataclass(frozen=True)
+class FreeFormSummary:
+    """What matters of many answers; quantities in pairs are the median and the largest one.
+
+    over_stop_and_go: time over that of stop and go [1]; wall, cpu and proof in s.
+    """
+
+    problems: int
+    verified: int
+    above_stop_and_go: int
+    below_bound: int
+    not_converged: int
+    over_stop_and_go: tuple[float, float] | None
+    gap: tuple[float, float]
+    wall: tuple[float, float]
+    cpu: tuple[float, float]
+    proof: tuple[float, float]
+
+
+def summarise(answers: list[FreeFormAnswer]) -> dict[str, Any]:
+    """Sum the random problems up.
+
+    Parameters
+    ----------
+    answers : list of FreeFormAnswer
+        All rows.
+
+    Returns
+    -------
+    dict
+        A ``FreeFormSummary``.
+    """
+    drawn = [answer for answer in answers if answer.series == "random"]
+    ratios = [a.seconds / a.stop_and_go for a in drawn if a.stop_and_go is not None]
+    gaps = [a.gap for a in drawn]
+    return asdict(
+        FreeFormSummary(
+            problems=len(drawn),
+            verified=sum(a.feasible for a in drawn),
+            above_stop_and_go=sum(ratio > 1.0 for ratio in ratios),
+            below_bound=sum(gap < -1e-9 for gap in gaps),
+            not_converged=sum(a.status != "ok" for a in drawn),
+            over_stop_and_go=_spread(ratios) if ratios else None,
+            gap=_spread(gaps),
+            wall=_spread([a.runtime for a in drawn]),
+            cpu=_spread([a.cpu for a in drawn]),
+            proof=_spread([a.proof for a in drawn]),
+        )
     )
 
 
-def as_text(answers: list[Answer]) -> str:
-    """A line per problem."""
+def _spread(values: list[float]) -> tuple[float, float]:
+    return float(np.median(values)), max(values)
+
+
+def as_table(answers: list[FreeFormAnswer]) -> str:
+    """Lay answers out as a table.
+
+    Parameters
+    ----------
+    answers : list of FreeFormAnswer
+        The rows.
+
+    Returns
+    -------
+    str
+        A line per problem.
+    """
     rows = [
         [
-            a.name,
-            str(a.dof),
-            str(a.segments),
-            f"{a.seconds:.9f}",
-            "-" if np.isnan(a.stop_and_go) else f"{a.stop_and_go:.6f}",
-            f"{a.gap:.1e}",
-            "yes" if a.feasible else "NO",
-            a.method,
-            a.status,
-            f"{a.runtime:.2f}",
-            f"{a.cpu:.2f}",
-            f"{a.proof:.2f}",
+            a.name, str(a.dof), str(a.segments), f"{a.seconds:.9f}",
+            "-" if a.stop_and_go is None else f"{a.stop_and_go:.6f}", f"{a.gap:.1e}",
+            "yes" if a.feasible else "NO", str(a.method), str(a.status), f"{a.runtime:.2f}",
+            f"{a.cpu:.2f}", f"{a.proof:.2f}",
         ]
         for a in answers
-    ]
+    ]  # fmt: skip
     header = ["problem", "joints", "segments", "free form [s]", "stop and go [s]", "gap", "verified"]
-    return commands.table(
-        [*header, "found by", "status", "wall [s]", "CPU [s]", "proof [s]"],
-        rows,
-        right=(1, 2, 3, 4, 5, 9, 10, 11),
-    )
+    header += ["found by", "status", "wall [s]", "CPU [s]", "proof [s]"]
+    return table(header, rows, right=(1, 2, 3, 4, 5, 9, 10, 11))
 
 
-def summary(answers: list[Answer]) -> str:
-    """What matters of many answers, in a line."""
-    runtime, cpu = np.array([a.runtime for a in answers]), np.array([a.cpu for a in answers])
-    ratio = np.array([a.seconds / a.stop_and_go for a in answers])
-    gap, proof = np.array([a.gap for a in answers]), np.array([a.proof for a in answers])
-    return (
-        f"{len(answers)} problems: {sum(a.feasible for a in answers)} verified, "
-        f"{int((ratio > 1.0).sum())} above stop and go, {int((gap < -1e-9).sum())} below their bound; "
-        f"time over stop and go {np.median(ratio):.4f} "
-        f"(largest {ratio.max():.9f}), not converged {sum(a.status != 'ok' for a in answers)}; "
-        f"certified gap median {np.median(gap):.1e}, largest {gap.max():.1e}; "
-        f"wall median {np.median(runtime):.3f} s, largest {runtime.max():.3f} s; "
-        f"CPU median {np.median(cpu):.3f} s, largest {cpu.max():.3f} s; "
-        f"proof wall median {np.median(proof):.3f} s, largest {proof.max():.3f} s"
-    )
+def as_text(answers: list[FreeFormAnswer], summary: dict[str, Any]) -> str:
+    """Show the cases and extremes as a table, and the random problems in a few lines.
+
+    Parameters
+    ----------
+    answers : list of FreeFormAnswer
+        All rows.
+    summary : dict
+        Of ``summarise``.
+
+    Returns
+    -------
+    str
+        The table and the lines.
+    """
+    s = FreeFormSummary(**summary)
+    stated = [answer for answer in answers if answer.series != "random"]
+    lines = [
+        f"{s.problems} random problems: {s.verified} verified, {s.above_stop_and_go} above stop and go, "
+        f"{s.below_bound} below their bound, {s.not_converged} not converged"
+    ]
+    if s.over_stop_and_go is not None:
+        middle, largest = s.over_stop_and_go
+        lines.append(f"  time over stop and go: median {middle:.4f}, largest {largest:.9f}")
+    lines.append(f"  certified gap: median {s.gap[0]:.1e}, largest {s.gap[1]:.1e}")
+    for name, (middle, largest) in (("wall", s.wall), ("CPU", s.cpu), ("proof, wall", s.proof)):
+        lines.append(f"  {name}: median {middle:.3f} s, largest {largest:.3f} s")
+    return "\n".join([*([as_table(stated), ""] if stated else []), *lines])
 
 
-def main() -> int:
-    """Solve the shipped cases and random problems."""
-    parser = commands.parser(
-        "free_form_study",
-        "The fastest motion on the shipped cases, on extremes and on random problems of two arms.",
-        "python -m compare.free_form_study --count 200",
-    )
-    parser.add_argument("--count", type=int, default=200, help="random problems (default 200)")
-    parser.add_argument("--seed", type=int, default=0, help="of the random problems")
-    parser.add_argument("--tolerance", type=float, default=1e-3, help="as of free_form (default 1e-3)")
-    parser.add_argument("--solver", default="ipopt", help="ipopt (default) or highs")
-    parser.add_argument(
-        "--gap", type=float, default=1e-3, help="certified gap to be content with (default 1e-3)"
-    )
-    parser.add_argument("--each", action="store_true", help="show a line per random problem too")
-    parser.add_argument("--json", metavar="FILE", help="write every answer to FILE")
-    options = parser.parse_args()
-    commands.positive("--count", options.count)
-    if options.solver not in ("ipopt", "highs"):
-        raise InputError(f"--solver: {options.solver!r} is not known (known: highs, ipopt)")
-
-    drawing = random_problems(options.count, options.seed)
-    shipped, extreme, drawn = (
-        [
-            answered(problem, options.tolerance, options.solver, options.gap)
-            for problem in tqdm(list(problems), name, disable=None, leave=False)
-        ]
-        for name, problems in (("cases", cases()), ("extremes", extremes()), ("random", drawing))
-    )
-    print(as_text([*shipped, *extreme]))
-    print()
-    if options.each:
-        print(as_text(drawn))
-    print(summary(drawn))
-    print(machine())
-    if options.json:
-        data = [
-            {**vars(a), "stop_and_go": None if np.isnan(a.stop_and_go) else a.stop_and_go}
-            for a in [*shipped, *extreme, *drawn]
-        ]
-        commands.write_json(Path(options.json), data)
-    return commands.DONE
-
-
-if __name__ == "__main__":
-    commands.run(main)
+STUDY = Study(
+    name="free_form_study",
+    row=FreeFormAnswer,
+    compute=answered,
+    summarise=summarise,
+    text=as_text,
+)

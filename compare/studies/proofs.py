@@ -1,25 +1,21 @@
-"""``python -m compare.proofs``: what a certified bound costs, against segments and against the gap.
+"""What a certified bound costs, against segments and gap: the study behind ``timebound proofs``.
 
-Random problems, posed and proved one by one: boxes, time and gap reached, and how often one local solve
-alone ends in the wrong basin. Rows go to DIR/proofs.csv as they end; the pictures are drawn from there.
+Random problems are stated and proved one by one: how many boxes, how much time, which gap is reached,
+and how often a single local solve ends in the wrong basin.
 """
 
 from __future__ import annotations
 
-import csv
-import os
-from concurrent.futures import ProcessPoolExecutor
 from dataclasses import asdict, dataclass
-from pathlib import Path
+from typing import Any
 
-import matplotlib as mpl
 import matplotlib.pyplot as plt
 import numpy as np
 from matplotlib.figure import Figure
 
-from compare.benchmark.run import each, machine, workers
-from compare.commands import shared as commands
 from compare.report.style import BLUE, GREEN, GREY, ORANGE, PURPLE, VERMILION, styled
+from compare.screen import table
+from compare.studies.study import Call, Study
 from formulations import Limits, Problem, family_optimum
 from formulations.proofs.family import family_bound
 
@@ -29,7 +25,7 @@ TIME_LIMIT = 60.0  # s per proof
 
 
 @dataclass(frozen=True)
-class Task:
+class ProofTask:
     """One random problem and the gaps asked for."""
 
     series: str
@@ -41,7 +37,7 @@ class Task:
 
 
 @dataclass(frozen=True)
-class Cost:
+class ProofCost:
     """What a proof cost. wrong_basin: the first local solve alone ended over 1e-6 above the best."""
 
     series: str
@@ -59,8 +55,19 @@ class Cost:
     wrong_basin: bool
 
 
-def random_problem(task: Task) -> Problem:
-    """Displacements log-uniform in 1e-3 to 2 rad with random signs; limits near 1."""
+def random_problem(task: ProofTask) -> Problem:
+    """Draw a problem: displacements log-uniform in 1e-3 to 2 rad with random signs, limits near 1.
+
+    Parameters
+    ----------
+    task : ProofTask
+        Its size, its limits and its seed.
+
+    Returns
+    -------
+    Problem
+        The same for the same task.
+    """
     rng = np.random.default_rng([task.seed, task.segments, task.joints])
     shape = (task.segments, task.joints)
     d = rng.choice([-1.0, 1.0], shape) * 10.0 ** rng.uniform(-3.0, np.log10(2.0), shape)
@@ -75,8 +82,19 @@ def random_problem(task: Task) -> Problem:
     return Problem.of(waypoints, limits, name=f"random-{task.seed}")
 
 
-def prove(task: Task) -> list[Cost]:
-    """Pose one problem and prove it to every gap."""
+def prove(task: ProofTask) -> list[ProofCost]:
+    """Solve one problem, and prove its bound to every gap.
+
+    Parameters
+    ----------
+    task : ProofTask
+        The problem and the gaps.
+
+    Returns
+    -------
+    list of ProofCost
+        A row per gap.
+    """
     problem = random_problem(task)
     optimum = family_optimum(problem)
     alone = optimum.starts[0].seconds
@@ -84,7 +102,7 @@ def prove(task: Task) -> list[Cost]:
     for gap in task.gaps:
         bound = family_bound(problem, gap=gap, time_limit=TIME_LIMIT, optimum=optimum)
         costs.append(
-            Cost(
+            ProofCost(
                 series=task.series,
                 segments=task.segments,
                 joints=task.joints,
@@ -103,28 +121,107 @@ def prove(task: Task) -> list[Cost]:
     return costs
 
 
-def tasks(count: int, most_segments: int, each_size: int) -> list[Task]:
-    """``count`` random 3-5-3 problems of 1 to 7 joints; six joints with more segments and digits."""
+def calls(count: int, most_segments: int, each_size: int) -> list[Call]:
+    """List the calls of the study.
+
+    Parameters
+    ----------
+    count : int
+        Random 3-5-3 problems, of one to seven joints.
+    most_segments : int
+        Most segments of the problems with six joints.
+    each_size : int
+        Problems per size, limits and gap.
+
+    Returns
+    -------
+    list of tuples
+        Arguments of ``prove``.
+    """
     many = [
-        Task("random 3-5-3", 3, 1 + seed % 7, LIMITED[seed % 3], seed, (1e-5,)) for seed in range(count)
+        ProofTask("random 3-5-3", 3, 1 + seed % 7, LIMITED[seed % 3], seed, (1e-5,))
+        for seed in range(count)
     ]
     longer = [
-        Task("segments", segments, 6, limited, seed, (1e-4,))
+        ProofTask("segments", segments, 6, limited, seed, (1e-4,))
         for segments in range(2, most_segments + 1)
         for limited in LIMITED
         for seed in range(each_size)
     ]
     finer = [
-        Task("digits", segments, 6, "VA", seed, GAPS)
+        ProofTask("digits", segments, 6, "VA", seed, GAPS)
         for segments in (3, 4, 5)
         for seed in range(each_size)
     ]
-    return [*many, *longer, *finer]
+    return [(task,) for task in (*many, *longer, *finer)]
+
+
+@dataclass(frozen=True)
+class ProofGroup:
+    """All problems of one series, size, kind of limits and gap. Times in s."""
+
+    series: str
+    segments: int
+    limited: str
+    gap: float
+    problems: int
+    proved: int
+    boxes: float
+    most_boxes: int
+    seconds: float
+    most_seconds: float
+    wrong_basin: int
+
+
+def summarise(costs: list[ProofCost]) -> list[dict[str, Any]]:
+    """Take medians and largest values by series, size, limits and gap.
+
+    Parameters
+    ----------
+    costs : list of ProofCost
+        All rows.
+
+    Returns
+    -------
+    list of dict
+        A ``ProofGroup`` each.
+    """
+    groups: dict[tuple[str, int, str, float], list[ProofCost]] = {}
+    for cost in costs:
+        groups.setdefault((cost.series, cost.segments, cost.limited, cost.gap_asked), []).append(cost)
+    return [
+        asdict(
+            ProofGroup(
+                *key,
+                problems=len(group),
+                proved=sum(cost.status == "proved" for cost in group),
+                boxes=float(np.median([cost.boxes for cost in group])),
+                most_boxes=max(cost.boxes for cost in group),
+                seconds=float(np.median([cost.seconds for cost in group])),
+                most_seconds=max(cost.seconds for cost in group),
+                wrong_basin=sum(cost.wrong_basin for cost in group),
+            )
+        )
+        for key, group in sorted(groups.items())
+    ]
 
 
 @styled
-def cost_figure(costs: list[Cost]) -> Figure:
-    """Histogram of the random 3-5-3 problems; time against segments; time against the gap."""
+def cost_figure(costs: list[ProofCost], summary: list[dict[str, Any]]) -> Figure:
+    """Draw boxes of the random 3-5-3 problems, time against segments, and time against the gap.
+
+    Parameters
+    ----------
+    costs : list of ProofCost
+        All rows.
+    summary : list of dict
+        Of ``summarise``.
+
+    Returns
+    -------
+    Figure
+        Three panels.
+    """
     figure, (first, second, third) = plt.subplots(1, 3, figsize=(11.5, 3.6))
     many = [cost for cost in costs if cost.series == "random 3-5-3"]
     boxes = np.array([max(cost.boxes, 1) for cost in many])
@@ -163,85 +260,39 @@ def cost_figure(costs: list[Cost]) -> Figure:
     return figure
 
 
-def draw(costs: list[Cost], folder: Path) -> None:
-    """Write the picture as SVG and PNG."""
-    mpl.use("Agg")
-    figure = cost_figure(costs)
-    (folder / "figures").mkdir(exist_ok=True)
-    figure.savefig(folder / "figures" / "proofs.svg", metadata={"Date": None})
-    figure.savefig(folder / "figures" / "proofs.png")
-    plt.close(figure)
+def as_text(costs: list[ProofCost], summary: list[dict[str, Any]]) -> str:
+    """Lay the groups out as a table.
+
+    Parameters
+    ----------
+    costs : list of ProofCost
+        All rows.
+    summary : list of dict
+        Of ``summarise``.
+
+    Returns
+    -------
+    str
+        A line per series, size, limits and gap.
+    """
+    rows = [
+        [
+            g.series, str(g.segments), g.limited, f"{g.gap:.0e}", f"{g.proved} of {g.problems}",
+            f"{g.boxes:.0f}", f"{g.most_boxes}", f"{g.seconds:.3f}", f"{g.most_seconds:.3f}",
+            str(g.wrong_basin),
+        ]
+        for g in (ProofGroup(**entry) for entry in summary)
+    ]  # fmt: skip
+    header = ["series", "segments", "limits", "gap", "proved"]
+    header += ["boxes", "most", "time [s]", "longest [s]", "wrong basin"]
+    return table(header, rows, right=(1, 3, 4, 5, 6, 7, 8, 9))
 
 
-def study(pool: ProcessPoolExecutor, wanted: list[Task], folder: Path) -> list[Cost]:
-    """Prove them all, a row in DIR/proofs.csv as each ends, and draw what it cost."""
-    costs: list[Cost] = []
-    with (folder / "proofs.csv").open("w", newline="", encoding="utf-8") as lines:
-        writer = csv.DictWriter(lines, list(Cost.__annotations__))
-        writer.writeheader()
-        for found in each(pool, "proofs", prove, [(task,) for task in wanted]):
-            writer.writerows(asdict(cost) for cost in found)
-            lines.flush()
-            costs += found
-    costs.sort(key=lambda cost: (cost.series, cost.segments, cost.limited, cost.seed, cost.gap_asked))
-    draw(costs, folder)
-    return costs
-
-
-def main() -> int:
-    """Prove random problems and draw what it cost."""
-    parser = commands.parser(
-        "proofs",
-        "What a certified bound costs: boxes and time on random problems.",
-        "python -m compare.proofs --count 1000 --segments 10 --out report",
-    )
-    parser.add_argument("--count", type=int, default=100, help="random 3-5-3 problems")
-    parser.add_argument("--segments", type=int, default=6, help="most segments of six-joint problems")
-    parser.add_argument("--each", type=int, default=2, help="problems per size, limits and gap")
-    parser.add_argument("--out", default="report", metavar="DIR", help="folder of the report")
-    parser.add_argument("--jobs", type=int, default=os.cpu_count() or 1, help="worker processes")
-    options = parser.parse_args()
-    for key in ("count", "segments", "each", "jobs"):
-        commands.positive(f"--{key}", getattr(options, key))
-    folder = commands.output_folder(options.out)
-    with workers(options.jobs) as pool:
-        costs = study(pool, tasks(options.count, options.segments, options.each), folder)
-    print(as_text(costs))
-    print(machine())
-    return commands.DONE
-
-
-def as_text(costs: list[Cost]) -> str:
-    """A line per series, size and limits."""
-    rows = []
-    groups: dict[tuple[str, int, str, float], list[Cost]] = {}
-    for cost in costs:
-        groups.setdefault((cost.series, cost.segments, cost.limited, cost.gap_asked), []).append(cost)
-    for (series, segments, limited, gap), group in groups.items():
-        boxes = [cost.boxes for cost in group]
-        seconds = [cost.seconds for cost in group]
-        proved = sum(cost.status == "proved" for cost in group)
-        rows.append(
-            [
-                series, str(segments), limited, f"{gap:.0e}", f"{proved} of {len(group)}",
-                f"{np.median(boxes):.0f}", f"{max(boxes)}", f"{np.median(seconds):.3f}",
-                f"{max(seconds):.3f}", str(sum(cost.wrong_basin for cost in group)),
-            ]
-        )  # fmt: skip
-    header = [
-        "series",
-        "segments",
-        "limits",
-        "gap",
-        "proved",
-        "boxes",
-        "most",
-        "s",
-        "most",
-        "wrong basin",
-    ]
-    return commands.table(header, rows, right=(1, 3, 4, 5, 6, 7, 8, 9))
-
-
-if __name__ == "__main__":
-    commands.run(main)
+STUDY = Study(
+    name="proofs",
+    row=ProofCost,
+    compute=prove,
+    summarise=summarise,
+    text=as_text,
+    figure=cost_figure,
+)

@@ -1,12 +1,11 @@
-"""``python -m compare.readings``: what a paper prints, what it can mean, and what the difference does.
+"""What a paper prints, and what it can mean: the study behind ``timebound readings``.
 
-Each reading of each formula that cannot be right, and each value of what a paper leaves open, on arm
-problems in the stretched coding: median gap and share of seeds below 0.1 %.
+Some printed formulas cannot be right, and some values are left open. Each reading of them runs on arm
+problems in the stretched coding: median gap, and share of the seeds that end below 0.1 %.
 """
 
 from __future__ import annotations
 
-import os
 from dataclasses import dataclass
 from typing import Any
 
@@ -16,69 +15,68 @@ from matplotlib.figure import Figure
 
 from compare.benchmark.grade import REACHED
 from compare.benchmark.objective import Objective, search_box
-from compare.benchmark.run import workers
-from compare.commands import shared as commands
 from compare.report.style import BLUE, GREY, ORANGE, styled
-from compare.studies.study import collect, finish
-from formulations import CASES, Problem, family_optimum, load
+from compare.screen import table
+from compare.studies.study import Call, Study
+from formulations import Problem, family_optimum, load
 from metaheuristics import ALGORITHMS, minimise
 
 # paper, question -> reading -> algorithm and what is changed; the first is the default
 READINGS: dict[str, dict[str, tuple[str, dict[str, Any]]]] = {
-    "000 eq. 15, 16: inertia, mutation": {
+    "Wang 2025, eq. 15, 16: inertia, mutation": {
         "resolved": ("mipso", {}),
         "as printed": ("mipso-printed", {}),
     },
-    "000 eq. 12: peak of the tent map": {
+    "Wang 2025, eq. 12: peak of the tent map": {
         "0.499": ("mipso", {}),
         "0.5 (collapses)": ("mipso", {"lam": 0.5}),
         "no map": ("mipso-pso1", {}),
     },
-    "001 eq. 15, 16: factors": {
+    "Li 2022, eq. 15, 16: factors": {
         "as printed": ("mpso", {}),
         "times ten": ("mpso-times-ten", {}),
     },
-    "002 eq. 8, 10: sparrows": {
+    "Zhou 2025, eq. 8, 10: sparrows": {
         "resolved": ("sparrow", {}),
         "as printed": ("sparrow-printed", {}),
     },
-    "002: share of scouts": {
+    "Zhou 2025: share of scouts": {
         "10 %": ("sparrow", {}),
         "20 %": ("sparrow", {"scouts": 0.2}),
     },
-    "002: how the weights enter": {
+    "Zhou 2025: how the weights enter": {
         "each chooses": ("issa", {}),
         "blended": ("issa-blended", {}),
     },
-    "002 eq. 14: threshold, share of the best": {
+    "Zhou 2025, eq. 14: threshold, share of the best": {
         "1e-3": ("issa", {}),
         "1e-2": ("issa", {"threshold": 1e-2}),
         "1e-4": ("issa", {"threshold": 1e-4}),
         "1e-6": ("issa", {"threshold": 1e-6}),
     },
-    "002 eq. 13: window": {
+    "Zhou 2025, eq. 13: window": {
         "5": ("issa", {}),
         "1": ("issa", {"window": 1}),
         "20": ("issa", {"window": 20}),
     },
-    "003 eq. 16, 19, 21, 23: whales": {
+    "Lu 2024, eq. 16, 19, 21, 23: whales": {
         "resolved": ("whale-lu-2024", {}),
         "as printed": ("whale-lu-2024-printed", {}),
         "no weight (2016)": ("whale", {}),
     },
-    "003 eq. 22: s": {
+    "Lu 2024, eq. 22: s": {
         "1": ("whale-lu-2024", {}),
         "-0.9": ("whale-lu-2024", {"s": -0.9}),
         "0": ("whale-lu-2024", {"s": 0.0}),
         "5": ("whale-lu-2024", {"s": 5.0}),
         "50": ("whale-lu-2024", {"s": 50.0}),
     },
-    "004 eq. 7: else-branch": {
+    "Zhang 2025, eq. 7: else-branch": {
         "keeps its own": ("pso-zhang-2025", {}),
         "as printed": ("pso-zhang-2025-printed", {}),
         "no crossover": ("pso-zhang-2025", {"CR": 0.0}),
     },
-    "004 eq. 6: alpha, beta": {
+    "Zhang 2025, eq. 6: alpha, beta": {
         "0.5, 0.5": ("pso-zhang-2025", {}),
         "0.9, 0.1": ("pso-zhang-2025", {"alpha": 0.9, "beta": 0.1}),
         "0.1, 0.9": ("pso-zhang-2025", {"alpha": 0.1, "beta": 0.9}),
@@ -88,7 +86,7 @@ READINGS: dict[str, dict[str, tuple[str, dict[str, Any]]]] = {
 
 
 @dataclass(frozen=True)
-class Row:
+class ReadingRun:
     """One run of one reading."""
 
     question: str
@@ -102,8 +100,29 @@ class Row:
 
 def repeat(
     question: str, reading: str, case: str, problem: Problem, optimum: float, seeds: int, budget: int
-) -> list[Row]:
-    """All seeds of one reading on one case."""
+) -> list[ReadingRun]:
+    """Run all seeds of one reading on one case.
+
+    Parameters
+    ----------
+    question, reading : str
+        Keys of READINGS.
+    case : str
+        Name of the problem.
+    problem : Problem
+        The problem.
+    optimum : float
+        Optimum of its family [s].
+    seeds : int
+        Number of seeds.
+    budget : int
+        Evaluations per run.
+
+    Returns
+    -------
+    list of ReadingRun
+        A row per seed.
+    """
     name, changed = READINGS[question][reading]
     entry = ALGORITHMS[name]
     objective = Objective(problem, stretch=True)
@@ -113,12 +132,23 @@ def repeat(
         parameters = entry.parameters | changed
         result = minimise(entry.function, objective, lo, hi, budget=budget, seed=seed, **parameters)
         gap = None if result.x is None else result.fitness / optimum - 1.0
-        rows.append(Row(question, reading, case, seed, budget, gap, result.status.value))
+        rows.append(ReadingRun(question, reading, case, seed, budget, gap, result.status.value))
     return rows
 
 
-def summarise(rows: list[Row]) -> list[dict[str, Any]]:
-    """By question and reading: quartiles of the gap and the share that reached the optimum."""
+def summarise(rows: list[ReadingRun]) -> list[dict[str, Any]]:
+    """Take quartiles of the gap, and the share that reached the optimum, by question and reading.
+
+    Parameters
+    ----------
+    rows : list of ReadingRun
+        All runs.
+
+    Returns
+    -------
+    list of dict
+        An entry per reading; a quartile is None where too many runs found nothing feasible.
+    """
     found = []
     for question, readings in READINGS.items():
         for reading in readings:
@@ -138,8 +168,21 @@ def summarise(rows: list[Row]) -> list[dict[str, Any]]:
 
 
 @styled
-def readings_figure(summary: list[dict[str, Any]]) -> Figure:
-    """A row per reading, grouped by question."""
+def readings_figure(rows: list[ReadingRun], summary: list[dict[str, Any]]) -> Figure:
+    """Draw a line per reading, grouped by question.
+
+    Parameters
+    ----------
+    rows : list of ReadingRun
+        All runs.
+    summary : list of dict
+        Of ``summarise``.
+
+    Returns
+    -------
+    Figure
+        The picture.
+    """
     figure, axes = plt.subplots(figsize=(9.5, 1.0 + 0.22 * len(summary)))
     labels = []
     for y, entry in enumerate(summary):
@@ -162,8 +205,21 @@ def readings_figure(summary: list[dict[str, Any]]) -> Figure:
     return figure
 
 
-def as_text(summary: list[dict[str, Any]]) -> str:
-    """A line per reading."""
+def as_text(rows: list[ReadingRun], summary: list[dict[str, Any]]) -> str:
+    """Lay the readings out as a table.
+
+    Parameters
+    ----------
+    rows : list of ReadingRun
+        All runs.
+    summary : list of dict
+        Of ``summarise``.
+
+    Returns
+    -------
+    str
+        A line per reading.
+    """
     lines = [
         [
             entry["question"], entry["reading"],
@@ -173,41 +229,43 @@ def as_text(summary: list[dict[str, Any]]) -> str:
         for entry in summary
     ]  # fmt: skip
     header = ["question", "reading", "gap, 25 %", "median", "75 %", "below 0.1 %"]
-    return commands.table(header, lines, right=(2, 3, 4, 5))
+    return table(header, lines, right=(2, 3, 4, 5))
 
 
-def main() -> int:
-    """Run every reading."""
-    parser = commands.parser(
-        "readings",
-        "What each reading of a misprinted or open formula does, on arm problems.",
-        "python -m compare.readings --seeds 30 --out report",
-    )
-    parser.add_argument("--cases", default="sr4c,ur5,cobot", help=f"some of {','.join(CASES)}")
-    parser.add_argument("--seeds", type=int, default=20, help="number of seeds")
-    parser.add_argument("--budget", type=int, default=2550, help="evaluations per run")
-    parser.add_argument("--out", default="report", metavar="DIR", help="folder of the report")
-    parser.add_argument("--jobs", type=int, default=os.cpu_count() or 1, help="worker processes")
-    options = parser.parse_args()
-    for key in ("seeds", "budget", "jobs"):
-        commands.positive(f"--{key}", getattr(options, key))
-    folder = commands.output_folder(options.out)
-    calls = []
-    for case in commands.chosen("--cases", options.cases, CASES):
+def calls(cases: list[str], seeds: int, budget: int) -> list[Call]:
+    """List the calls of the study; the optimum of each case is computed here.
+
+    Parameters
+    ----------
+    cases : list of str
+        Shipped cases.
+    seeds : int
+        Number of seeds.
+    budget : int
+        Evaluations per run.
+
+    Returns
+    -------
+    list of tuples
+        Arguments of ``repeat``.
+    """
+    found: list[Call] = []
+    for case in cases:
         problem = load(case)
         optimum = family_optimum(problem).seconds
-        calls += [
-            (question, reading, case, problem, optimum, options.seeds, options.budget)
+        found += [
+            (question, reading, case, problem, optimum, seeds, budget)
             for question, readings in READINGS.items()
             for reading in readings
         ]
-    with workers(options.jobs) as pool:
-        rows = collect(pool, folder, "readings", repeat, calls, list(Row.__annotations__))
-    summary = summarise(rows)
-    finish(folder, "readings", summary, readings_figure(summary))
-    print(as_text(summary))
-    return commands.DONE
+    return found
 
 
-if __name__ == "__main__":
-    commands.run(main)
+STUDY = Study(
+    name="readings",
+    row=ReadingRun,
+    compute=repeat,
+    summarise=summarise,
+    text=as_text,
+    figure=readings_figure,
+)

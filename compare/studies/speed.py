@@ -1,7 +1,7 @@
-"""``python -m compare.speed``: candidate checks a second, beside the papers' way, in one run.
+"""Candidate checks per second, beside the papers' way: the study behind ``timebound speed``.
 
-A benchmark command, not a test: each rival checks the same candidates of the same arm, in turn, and
-the best of several rounds counts. Add a rival to RIVALS.
+Each way checks the same candidates of the same arm, in turn, and the best of several rounds counts. Add
+another way to WAYS.
 """
 
 from __future__ import annotations
@@ -9,27 +9,52 @@ from __future__ import annotations
 import time
 from collections.abc import Callable
 from dataclasses import dataclass
+from typing import Any
 
 import numpy as np
 
-from compare.benchmark.run import machine, versions_text
-from compare.commands import shared as commands
-from compare.studies import speed_swarms
-from formulations import FAMILIES, InputError, Problem, check, load
+from compare.screen import table
+from compare.studies.study import Study
+from formulations import FAMILIES, Problem, check
 from formulations.problem.arrays import Array
 
 SAMPLES = 100  # per segment, as the papers' scripts do
 
 
 def compiled(problem: Problem, durations: Array) -> Array:
-    """Least feasible stretch by the compiled exact peaks, (n,)."""
+    """Compute the least feasible stretch by the compiled exact peaks.
+
+    Parameters
+    ----------
+    problem : Problem
+        A 3-5-3 problem.
+    durations : Array, shape (n, 3) [s]
+        Candidates.
+
+    Returns
+    -------
+    Array, shape (n,)
+        Least feasible stretch [1].
+    """
     return FAMILIES[problem.family].stretch(problem, durations)
 
 
 def matrix_and_samples(problem: Problem, durations: Array) -> Array:
-    """Least feasible stretch the papers' way, (n,): 14x14 solve, peaks among 100 samples a segment.
+    """Compute it the papers' way: solve a 14x14 system, and find peaks among 100 samples per segment.
 
-    Whole blocks of candidates at once, which no paper does: the rival at its best in NumPy.
+    It takes whole blocks of candidates at once, which no paper does: this is its best in NumPy.
+
+    Parameters
+    ----------
+    problem : Problem
+        A 3-5-3 problem.
+    durations : Array, shape (n, 3) [s]
+        Candidates.
+
+    Returns
+    -------
+    Array, shape (n,)
+        Least feasible stretch [1].
     """
     found = []
     for block in np.array_split(durations, max(len(durations) // 200, 1)):
@@ -53,18 +78,44 @@ def matrix_and_samples(problem: Problem, durations: Array) -> Array:
 
 
 def one_by_one(problem: Problem, durations: Array) -> Array:
-    """The same for one candidate at a time: a loop over the swarm, as the papers' scripts do."""
+    """Compute the same for one candidate at a time: a loop over the swarm, as in the papers' scripts.
+
+    Parameters
+    ----------
+    problem : Problem
+        A 3-5-3 problem.
+    durations : Array, shape (n, 3) [s]
+        Candidates.
+
+    Returns
+    -------
+    Array, shape (n,)
+        Least feasible stretch [1].
+    """
     return np.concatenate([matrix_and_samples(problem, row[None]) for row in durations])
 
 
 def independent_check(problem: Problem, durations: Array) -> Array:
-    """The check that judges reported numbers: exact, thorough, one motion at a time."""
+    """Compute it by the check that judges reported numbers: exact, one motion at a time.
+
+    Parameters
+    ----------
+    problem : Problem
+        A 3-5-3 problem.
+    durations : Array, shape (n, 3) [s]
+        Candidates.
+
+    Returns
+    -------
+    Array, shape (n,)
+        Least feasible stretch [1].
+    """
     family = FAMILIES[problem.family]
     return np.array([check(problem, family.trajectory(problem, row)).stretch for row in durations])
 
 
 @dataclass(frozen=True)
-class Rival:
+class Way:
     """A way to check candidates, and how many of them it gets per round."""
 
     title: str
@@ -72,70 +123,104 @@ class Rival:
     candidates: int
 
 
-RIVALS = {
-    "compiled": Rival("compiled exact peaks", compiled, 100_000),
-    "matrix": Rival("14x14 solve, 100 samples a segment, in blocks", matrix_and_samples, 2_000),
-    "one-by-one": Rival("the same, one candidate at a time", one_by_one, 200),
-    "check": Rival("the independent check (judges, does not search)", independent_check, 50),
+WAYS = {
+    "compiled": Way("compiled exact peaks", compiled, 100_000),
+    "matrix": Way("14x14 solve, 100 samples a segment, in blocks", matrix_and_samples, 2_000),
+    "one-by-one": Way("the same, one candidate at a time", one_by_one, 200),
+    "check": Way("the independent check (judges, does not search)", independent_check, 50),
 }
 
 
-def main() -> int:
-    """Time every rival on one case."""
-    parser = commands.parser(
-        "speed",
-        "Candidate checks a second, beside the papers' way.",
-        "python -m compare.speed --case ur5",
-    )
-    parser.add_argument("--case", default="sr4c", help="a 3-5-3 case or problem file")
-    parser.add_argument(
-        "--swarms",
-        action="store_true",
-        help="what each swarm costs beside its objective, and beside the same in mealpy",
-    )
-    parser.add_argument("--rounds", type=int, default=5, help="rounds; the best one counts")
-    options = parser.parse_args()
-    rounds = commands.positive("--rounds", options.rounds)
-    problem = load(options.case)
-    if options.swarms:
-        print(speed_swarms.as_text(problem, rounds))
-        print(f"{machine()}. {versions_text()}")
-        return commands.DONE
-    if problem.family != "3-5-3":
-        raise InputError(
-            f"--case: the papers' 14x14 matrix is 3-5-3's, {options.case} is {problem.family}"
-        )
+@dataclass(frozen=True)
+class CheckSpeed:
+    """One way: time per candidate [s], and the largest relative error of the stretch [1]."""
 
+    way: str
+    title: str
+    seconds: float
+    error: float
+
+
+def measure(problem: Problem, rounds: int) -> list[CheckSpeed]:
+    """Time every way on the same candidates.
+
+    Parameters
+    ----------
+    problem : Problem
+        A 3-5-3 problem: the papers' 14x14 matrix is of that family.
+    rounds : int
+        Rounds; the best one counts. The ways take turns, so that a slow moment of the machine meets
+        all of them.
+
+    Returns
+    -------
+    list of CheckSpeed
+        A row per way.
+    """
     rng = np.random.default_rng(0)
-    durations = rng.uniform(0.2, 3.0, (max(r.candidates for r in RIVALS.values()), 3))
+    durations = rng.uniform(0.2, 3.0, (max(way.candidates for way in WAYS.values()), 3))
     exact = compiled(problem, durations)
-    best = dict.fromkeys(RIVALS, np.inf)
-    error = dict.fromkeys(RIVALS, 0.0)
-    for _ in range(rounds):  # in turn, so that a slow moment of the machine meets all of them
-        for name, rival in RIVALS.items():
-            mine = durations[: rival.candidates]
+    best = dict.fromkeys(WAYS, np.inf)
+    error = dict.fromkeys(WAYS, 0.0)
+    for _ in range(rounds):
+        for name, way in WAYS.items():
+            mine = durations[: way.candidates]
             started = time.perf_counter()
-            factor = rival.function(problem, mine)
+            factor = way.function(problem, mine)
             best[name] = min(best[name], (time.perf_counter() - started) / len(mine))
             error[name] = float(np.abs(factor / exact[: len(mine)] - 1.0).max())
-    rows = [
-        [
-            rival.title,
-            f"{1.0 / best[name]:,.0f}",
-            f"{best[name] / best['compiled']:,.0f}",
-            f"{error[name]:.1e}",
-        ]
-        for name, rival in RIVALS.items()
+    return [CheckSpeed(name, way.title, best[name], error[name]) for name, way in WAYS.items()]
+
+
+def summarise(rows: list[CheckSpeed]) -> dict[str, Any]:
+    """Take checks per second, and how many times slower each way is than the compiled one.
+
+    Parameters
+    ----------
+    rows : list of CheckSpeed
+        All ways.
+
+    Returns
+    -------
+    dict
+        By way.
+    """
+    fastest = next(row.seconds for row in rows if row.way == "compiled")
+    return {
+        row.way: {"per_second": 1.0 / row.seconds, "times_slower": row.seconds / fastest,
+                  "error": row.error}
+        for row in rows
+    }  # fmt: skip
+
+
+def as_text(rows: list[CheckSpeed], summary: dict[str, Any]) -> str:
+    """Lay the ways out as a table.
+
+    Parameters
+    ----------
+    rows : list of CheckSpeed
+        All ways.
+    summary : dict
+        Of ``summarise``.
+
+    Returns
+    -------
+    str
+        A line per way.
+    """
+    lines = [
+        [row.title, f"{s['per_second']:,.0f}", f"{s['times_slower']:,.0f}", f"{s['error']:.1e}"]
+        for row, s in zip(rows, summary.values(), strict=True)
     ]
-    header = ["candidate check", "a second", "times slower", "largest error of the stretch"]
-    print(f"{problem.name}: {problem.dof} joints, 3-5-3, one core, best of {rounds} rounds")
-    print(commands.table(header, rows, right=(1, 2, 3)))
-    print(f"{machine()}. {versions_text()}")
-    return commands.DONE
+    header = ["candidate check", "per second", "times slower", "largest error of the stretch"]
+    return table(header, lines, right=(1, 2, 3))
+
+
+STUDY = Study(name="speed", row=CheckSpeed, compute=measure, summarise=summarise, text=as_text)
 
 
 def _matrix(durations: Array) -> Array:
-    """The papers' matrix (000 eq. 5; 002 eq. 5; 004 eq. 9): (n, 3) -> (n, 14, 14)."""
+    """The papers' matrix (Wang 2025, eq. 5; Zhou 2025, eq. 5; Zhang 2025, eq. 9): (n, 3) -> (n, 14, 14)."""
     t1, t2, t3 = durations.T
     a = np.zeros((len(durations), 14, 14))
     one = np.ones_like(t1)
@@ -165,12 +250,8 @@ def _matrix(durations: Array) -> Array:
 
 
 def _right_side(problem: Problem) -> Array:
-    """The papers' right side (000 eq. 7), one column per joint: (14, dof)."""
+    """The papers' right side (Wang 2025, eq. 7), one column per joint: (14, dof)."""
     x = problem.waypoints
     side = np.zeros((14, problem.dof))
     side[6], side[9], side[12], side[13] = x[3], x[0], x[2], x[1]
     return side
-
-
-if __name__ == "__main__":
-    commands.run(main)

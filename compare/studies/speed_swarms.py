@@ -1,7 +1,8 @@
 """What a swarm costs beside its objective, and beside the same swarm in mealpy.
 
-Times of the processor, not of the wall, so that what else runs on the machine counts less; rivals take
-turns, and the best of several rounds counts. ``python -m compare.speed --swarms`` prints it.
+These are the two studies behind ``timebound speed --swarms``. They measure time of the processor, not
+of the wall, so that other programs on the machine count less. Rivals take turns, and the best of
+several rounds counts.
 """
 
 from __future__ import annotations
@@ -16,11 +17,12 @@ from typing import Any
 import numpy as np
 
 from compare.benchmark.objective import Objective, search_box
-from compare.commands import shared as commands
+from compare.screen import table
+from compare.studies.study import Study
 from formulations import Problem
 from metaheuristics import ALGORITHMS, minimise
 
-POPULATION, STEPS = 50, 60
+POPULATION, STEPS, BUDGET = 50, 60, 5000
 WORST = 1e18
 PAIRS = {  # ours: the same algorithm of mealpy
     "pso": "OriginalPSO",
@@ -33,16 +35,31 @@ PAIRS = {  # ours: the same algorithm of mealpy
 
 
 @dataclass(frozen=True)
-class Cost:
-    """Seconds of a swarm's own work and of its objective, per 50 evaluations."""
+class SwarmCost:
+    """Time of a swarm's own work, a driver's checks included, and of its objective [s per 50 evaluations]."""
 
     swarm: str
     algorithm: float
     objective: float
 
 
-def costs(problem: Problem, rounds: int, names: list[str] | None = None) -> list[Cost]:
-    """The swarm's own work against its objective, in the stretched coding at population 50."""
+def costs(problem: Problem, rounds: int, names: list[str] | None = None) -> list[SwarmCost]:
+    """Measure each swarm's own work against its objective, in the stretched coding at population 50.
+
+    Parameters
+    ----------
+    problem : Problem
+        The problem.
+    rounds : int
+        Rounds; the best one counts.
+    names : list of str, optional
+        Algorithms; all whose libraries are installed if left out.
+
+    Returns
+    -------
+    list of SwarmCost
+        A row per swarm.
+    """
     objective = Objective(problem, stretch=True)
     lo, hi = search_box(problem)
     names = names or [name for name, entry in ALGORITHMS.items() if _there(entry.libraries)]
@@ -60,7 +77,7 @@ def costs(problem: Problem, rounds: int, names: list[str] | None = None) -> list
             whole = time.process_time() - started
             found = ((whole - inside[0]) / STEPS, inside[0] / STEPS)
             best[name] = min(best[name], found, key=lambda pair: pair[0])
-    return [Cost(name, *pair) for name, pair in best.items()]
+    return [SwarmCost(name, *pair) for name, pair in best.items()]
 
 
 def _timed(f: Callable[[Any], Any], inside: list[float]) -> Callable[[Any], Any]:
@@ -73,8 +90,35 @@ def _timed(f: Callable[[Any], Any], inside: list[float]) -> Callable[[Any], Any]
     return timed
 
 
-def pairs(problem: Problem, rounds: int, budget: int = 5000) -> list[tuple[str, str, float, float]]:
-    """Ours, theirs, and seconds of whole runs of each on the same objective and budget."""
+@dataclass(frozen=True)
+class SwarmPair:
+    """The same swarm here and in mealpy, by its name there: time of a whole run [s]."""
+
+    swarm: str
+    theirs: str
+    seconds: float
+    seconds_theirs: float
+
+
+def pairs(problem: Problem, rounds: int, budget: int = BUDGET) -> list[SwarmPair]:
+    """Time whole runs of each swarm here and in mealpy, on the same objective and budget.
+
+    Parameters
+    ----------
+    problem : Problem
+        The problem.
+    rounds : int
+        Rounds; the best one counts.
+    budget : int
+        Evaluations per run.
+
+    Returns
+    -------
+    list of SwarmPair
+        A row per pair; none if mealpy is not installed.
+    """
+    if not _there(("mealpy",)):
+        return []
     import mealpy
 
     objective = Objective(problem, stretch=True)
@@ -94,8 +138,8 @@ def pairs(problem: Problem, rounds: int, budget: int = 5000) -> list[tuple[str, 
                 min(best[0], middle - started),
                 min(best[1], time.process_time() - middle),
             ]
-        found.append((ours, theirs, *best))
-    return found  # type: ignore[return-value]
+        found.append(SwarmPair(ours, theirs, *best))
+    return found
 
 
 def _alone(
@@ -124,36 +168,71 @@ def _there(libraries: tuple[str, ...]) -> bool:
     return all(importlib.util.find_spec(name) is not None for name in libraries)
 
 
-def as_text(problem: Problem, rounds: int) -> str:
-    """Both tables."""
-    rows = [
-        [c.swarm, f"{c.algorithm * 1e6:.0f}", f"{c.objective * 1e6:.0f}",
-         f"{c.algorithm / c.objective:.2f}", "yes" if c.algorithm <= 2 * c.objective else "NO"]
-        for c in costs(problem, rounds)
+def cost_text(rows: list[SwarmCost], summary: dict[str, Any]) -> str:
+    """Lay the costs out as a table.
+
+    Parameters
+    ----------
+    rows : list of SwarmCost
+        All swarms.
+    summary : dict
+        Ratio of own work to objective, by swarm.
+
+    Returns
+    -------
+    str
+        A line per swarm.
+    """
+    lines = [
+        [c.swarm, f"{c.algorithm * 1e6:.0f}", f"{c.objective * 1e6:.0f}", f"{summary[c.swarm]:.2f}",
+         "yes" if summary[c.swarm] <= 2.0 else "NO"]
+        for c in rows
     ]  # fmt: skip
+    title = f"a step of {POPULATION} evaluations in the stretched coding, time of the processor"
     header = ["swarm", "own work [us]", "objective [us]", "ratio", "at most twice"]
-    parts = [
-        f"{problem.name}: a step of {POPULATION} evaluations in the stretched coding, processor time,"
-        f" best of {rounds} rounds; a driver's checks are the swarm's own work",
-        commands.table(header, rows, right=(1, 2, 3)),
-    ]
-    if not _there(("mealpy",)):
-        parts.append("pairs with mealpy: it is not installed: pip install 'timebound[rivals]'")
-        return "\n".join(parts)
-    rows = [
-        [
-            ours,
-            theirs,
-            f"{a * 1e3:.0f}",
-            f"{b * 1e3:.0f}",
-            f"{b / a:.1f}",
-            "yes" if b >= 10 * a else "NO",
-        ]
-        for ours, theirs, a, b in pairs(problem, rounds)
-    ]
+    return f"{title}\n{table(header, lines, right=(1, 2, 3))}\n"
+
+
+def pair_text(rows: list[SwarmPair], summary: dict[str, Any]) -> str:
+    """Lay the pairs out as a table.
+
+    Parameters
+    ----------
+    rows : list of SwarmPair
+        All pairs.
+    summary : dict
+        How many times faster, by swarm.
+
+    Returns
+    -------
+    str
+        A line per pair; one line if mealpy is not installed.
+    """
+    if not rows:
+        return "pairs with mealpy: it is not installed: pip install 'timebound[rivals]'"
+    lines = [
+        [p.swarm, p.theirs, f"{p.seconds * 1e3:.0f}", f"{p.seconds_theirs * 1e3:.0f}",
+         f"{summary[p.swarm]:.1f}", "yes" if summary[p.swarm] >= 10.0 else "NO"]
+        for p in rows
+    ]  # fmt: skip
+    title = (
+        f"whole runs of {BUDGET} evaluations, in pairs; mealpy as its users run it, without this driver"
+    )
     header = ["swarm", "in mealpy", "ours [ms]", "mealpy [ms]", "times faster", "ten times"]
-    parts += [
-        "\nwhole runs of 5000 evaluations, in pairs; mealpy as its users run it, without this driver",
-        commands.table(header, rows, right=(2, 3, 4)),
-    ]
-    return "\n".join(parts)
+    return f"{title}\n{table(header, lines, right=(2, 3, 4))}"
+
+
+COSTS = Study(
+    name="speed_swarms",
+    row=SwarmCost,
+    compute=costs,
+    summarise=lambda rows: {c.swarm: c.algorithm / c.objective for c in rows},
+    text=cost_text,
+)
+PAIRED = Study(
+    name="speed_mealpy",
+    row=SwarmPair,
+    compute=pairs,
+    summarise=lambda rows: {p.swarm: p.seconds_theirs / p.seconds for p in rows},
+    text=pair_text,
+)

@@ -15,7 +15,6 @@ from __future__ import annotations
 import csv
 import io
 import json
-import os
 from pathlib import Path
 from typing import Any
 
@@ -25,6 +24,7 @@ from scipy.interpolate import BPoly, PPoly
 from formulations.motion.trajectory import Trajectory
 from formulations.problem.arrays import Array
 from formulations.problem.errors import InputError
+from formulations.problem.files import write_text
 
 _QUANTITIES = ("position", "velocity", "acceleration")
 _LARGEST = 200_000_000  # bytes of a file to be read
@@ -48,12 +48,7 @@ def write_motion(path: str | Path, trajectory: Trajectory, *, rate: float | None
         text = _as_json(times, values)
     else:
         raise InputError(f"{path}: a motion is written as .csv or .json, not {path.suffix!r}")
-    temporary = path.with_name(path.name + ".part")
-    try:
-        temporary.write_text(text, "utf-8")
-        os.replace(temporary, path)
-    except OSError as error:
-        raise InputError(f"{path}: cannot be written: {error.strerror or error}") from None
+    write_text(path, text)
 
 
 def read_motion(path: str | Path, *, passages: Array | None = None) -> Trajectory:

@@ -20,14 +20,13 @@ Joints and segments count from 0. ``compare.check_certificate`` replays it in ba
 from __future__ import annotations
 
 import json
-import os
 from pathlib import Path
 from typing import Any
 
 import numpy as np
 
 from formulations.problem.arrays import Array
-from formulations.problem.errors import InputError
+from formulations.problem.files import write_text
 from formulations.problem.problem import Problem
 from formulations.proofs.events import ABOVE, BELOW, EMPTY, LEAF, SPLIT, TURN
 from formulations.proofs.proof import Proof
@@ -89,15 +88,9 @@ def certificate_of_proof(problem: Problem, proof: Proof) -> dict[str, Any]:
 
 def write_certificate(path: str | Path, certificate: dict[str, Any]) -> None:
     """Write a certificate whole or not at all. Raises InputError in one line."""
-    path = Path(path)
     head = json.dumps({key: value for key, value in certificate.items() if key != "events"}, indent=1)
     lines = ",\n".join(json.dumps(event, separators=(",", ":")) for event in certificate["events"])
-    temporary = path.with_name(path.name + ".part")
-    try:
-        temporary.write_text(f'{head[:-2]},\n "events": [\n{lines}\n]\n}}\n', "utf-8")
-        os.replace(temporary, path)
-    except OSError as error:
-        raise InputError(f"{path}: cannot be written: {error.strerror or error}") from None
+    write_text(path, f'{head[:-2]},\n "events": [\n{lines}\n]\n}}\n')
 
 
 def _hex(values: Array) -> Any:

@@ -1,4 +1,4 @@
-"""``python -m compare.ablation``: table 3 of paper 000, the ablation of MIPSO on CEC2017, run again.
+"""Table 3 of Wang 2025 (``timebound ablation``), the ablation of MIPSO on CEC2017, run again.
 
 Protocol of its section 3.4 (--full): 100 particles, 50 dimensions, 500 iterations, 30 runs; eight
 functions of CEC2017 by minionpy. The factor of eq. 19 is the mean best fitness without a strategy over
@@ -9,7 +9,6 @@ most of it, and once over f - f*. Mutants count as evaluations, so every variant
 from __future__ import annotations
 
 import importlib.util
-import os
 from dataclasses import dataclass
 from typing import Any
 
@@ -18,10 +17,8 @@ import numpy as np
 from matplotlib.figure import Figure
 from scipy import stats
 
-from compare.benchmark.run import workers
-from compare.commands import shared as commands
 from compare.report.style import BLUE, GREY, VERMILION, styled
-from compare.studies.study import collect, finish
+from compare.screen import table
 from formulations import InputError
 from formulations.problem.arrays import Array
 from metaheuristics import ALGORITHMS, minimise
@@ -216,7 +213,7 @@ def as_text(summary: dict[str, Any]) -> str:
                 f"{e['p_holm']:.2g}", e["verdict"],
             ])  # fmt: skip
     header = ["without", "f", "printed", "raw", "over f - f*", "95 % interval", "p (Holm)", "verdict"]
-    parts = [commands.table(header, lines, right=range(2, 7))]
+    parts = [table(header, lines, right=range(2, 7))]
     for swarm, strategy in STRATEGIES.items():
         o = summary["overall"][swarm]
         parts.append(
@@ -225,41 +222,3 @@ def as_text(summary: dict[str, Any]) -> str:
             f" {o['geometric_mean']:.3f}, p = {o['p_holm']:.2g} after Holm)"
         )
     return "\n".join(parts)
-
-
-def main() -> int:
-    """Run the ablation again."""
-    parser = commands.parser(
-        "ablation",
-        "Table 3 of paper 000 run again: MIPSO without one strategy at a time, on CEC2017.",
-        "python -m compare.ablation --full --out report",
-    )
-    parser.add_argument(
-        "--full", action="store_true", help="the paper's protocol: 500 iterations, 30 runs"
-    )
-    parser.add_argument("--out", default="report", metavar="DIR", help="folder of the report")
-    parser.add_argument("--jobs", type=int, default=os.cpu_count() or 1, help="worker processes")
-    options = parser.parse_args()
-    jobs = commands.positive("--jobs", options.jobs)
-    protocol = FULL if options.full else SHORT
-    cec2017(3, 10)  # says at once what is missing
-    holm([0.5])
-    folder = commands.output_folder(options.out)
-    swarms = ["mipso", *STRATEGIES]
-    calls = [
-        (number, swarm, protocol, range(start, min(start + 5, protocol.runs)))
-        for number in PRINTED
-        for swarm in swarms
-        for start in range(0, protocol.runs, 5)
-    ]
-    with workers(jobs) as pool:
-        rows = collect(pool, folder, "ablation", repeat, calls, list(Row.__annotations__))
-    rows.sort(key=lambda row: (row.function, swarms.index(row.swarm), row.seed))
-    summary = summarise(rows)
-    finish(folder, "ablation", summary, ablation_figure(summary, protocol))
-    print(as_text(summary))
-    return commands.DONE
-
-
-if __name__ == "__main__":
-    commands.run(main)

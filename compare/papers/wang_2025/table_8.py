@@ -1,4 +1,4 @@
-"""``python -m compare.table8``: table 8 of paper 000 run again, with the bound that nobody can beat.
+"""Table 8 of Wang 2025 run again (``timebound table8``), with the bound that nobody can beat.
 
 The protocol of its section 4.2.2: joint 1 of the SR4C alone, a candidate that breaks a limit is out,
 50 particles, 50 iterations, 10 repetitions, which is few: 1,000 are run as well. Table 6 limits the
@@ -9,9 +9,7 @@ iterations and of the first population are the budget; mutants count.
 
 from __future__ import annotations
 
-import os
 from dataclasses import dataclass, replace
-from pathlib import Path
 from typing import Any
 
 import matplotlib.pyplot as plt
@@ -19,10 +17,8 @@ import numpy as np
 from matplotlib.figure import Figure
 
 from compare.benchmark.grade import Run, grade
-from compare.benchmark.run import workers
-from compare.commands import shared as commands
 from compare.report.style import BLACK, BLUE, GREY, ORANGE, VERMILION, styled
-from compare.studies.study import collect, finish
+from compare.screen import table
 from formulations import FAMILIES, Problem, family_optimum, load
 from formulations.problem.arrays import Array
 from formulations.proofs.family import family_bound
@@ -67,8 +63,8 @@ def accelerations() -> dict[str, float]:
     problem = load("sr4c").joint(0)
     family = FAMILIES[problem.family]
     return {
-        table: float(np.degrees(family.peaks(problem, np.array([times]))[0, 0, 1]))
-        for table, times in VECTORS.items()
+        name: float(np.degrees(family.peaks(problem, np.array([times]))[0, 0, 1]))
+        for name, times in VECTORS.items()
     }
 
 
@@ -184,9 +180,9 @@ def as_text(summary: dict[str, Any]) -> str:
         parts.append(
             f"joint 1, {facts['speed']:.0f} deg/s, {facts['acceleration']:.0f} deg/s^2, {limit}:"
             f" certified bound {facts['bound']:.6f} s, optimum {facts['optimum']:.6f} s\n"
-            + commands.table(header, lines, right=range(1, len(header)))
+            + table(header, lines, right=range(1, len(header)))
         )
-    peaks = ", ".join(f"{value:.2f} ({table})" for table, value in accelerations().items())
+    peaks = ", ".join(f"{value:.2f} ({name})" for name, value in accelerations().items())
     parts.append(f"peak acceleration of joint 1 in the printed time vectors [deg/s^2]: {peaks}")
     return "\n\n".join(parts)
 
@@ -196,35 +192,3 @@ def _cells(entry: dict[str, Any]) -> list[str]:
     runs = f"{entry['runs']}" + (f" ({entry['unsolved']} unsolved)" if entry["unsolved"] else "")
     return [runs, f"{entry['mean']:.4f}", f"{low:.4f} to {high:.4f}", f"{entry['deviation']:.4f}",
             f"{entry['best']:.4f}", f"{entry['worst']:.4f}"]  # fmt: skip
-
-
-def main() -> int:
-    """Run table 8 again."""
-    parser = commands.parser(
-        "table8",
-        "Table 8 of paper 000 run again: joint 1 alone, 50 particles, 50 iterations.",
-        "python -m compare.table8 --runs 1000 --out report",
-    )
-    parser.add_argument("--runs", type=int, default=1000, help="runs of each swarm; the first 10 apart")
-    parser.add_argument("--out", default="report", metavar="DIR", help="folder of the report")
-    parser.add_argument("--jobs", type=int, default=os.cpu_count() or 1, help="worker processes")
-    options = parser.parse_args()
-    runs, jobs = commands.positive("--runs", options.runs), commands.positive("--jobs", options.jobs)
-    folder = Path(commands.output_folder(options.out))
-    calls = [
-        (limit, swarm, range(start, min(start + 50, runs)))
-        for limit in LIMITS
-        for swarm in SWARMS
-        for start in range(0, runs, 50)
-    ]
-    with workers(jobs) as pool:
-        rows = collect(pool, folder, "table8", repeat, calls, list(Row.__annotations__))
-    rows.sort(key=lambda row: (list(LIMITS).index(row.limit), SWARMS.index(row.swarm), row.seed))
-    summary = summarise(rows)
-    finish(folder, "table8", summary, table8_figure(rows, summary))
-    print(as_text(summary))
-    return commands.DONE
-
-
-if __name__ == "__main__":
-    commands.run(main)

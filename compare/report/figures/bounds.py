@@ -28,7 +28,6 @@ def ladder_figure(problem: Problem, ladder: LadderRecord, rows: Sequence[Row]) -
         Its bounds.
     rows : sequence of Row
         Its rows.
-
     """
     entries = [
         (RUNGS[key].name, rung["seconds"], *KIND_STYLE[rung["kind"]])

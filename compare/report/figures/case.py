@@ -14,11 +14,11 @@ from compare.benchmark.grade import Trace
 from compare.benchmark.ladders import LadderRecord
 from compare.benchmark.rows import Row, RunKey
 from compare.benchmark.statistics import lower_median, times_of
-from compare.commands import shared as commands
-from compare.commands.split import split, split_figure
+from compare.files import write_text
 from compare.report.figures import convergence_figure, gap_figure, ladder_figure, motion_figure
 from compare.report.motion_picture import fastest_spline
 from compare.report.style import CODING_STYLE, STYLE
+from compare.studies.time_split import split, split_figure
 from formulations import Problem
 
 
@@ -49,7 +49,6 @@ def draw_case(
     -------
     list of str
         Names of the figures, without ending.
-
     """
     draw: dict[str, Callable[[], Figure]] = {
         "ladder": lambda: ladder_figure(problem, ladder, rows),
@@ -74,7 +73,7 @@ def draw_case(
     durations = ladder["durations"].get("family")
     arm = None if durations is None else fastest_spline(case, problem, np.array(durations))
     if arm is not None:
-        commands.write_text(target / f"{case}-arm.svg", arm)
+        write_text(target / f"{case}-arm.svg", arm)
         names.append(f"{case}-arm")
     else:  # an earlier comparison in this folder may have left one
         (target / f"{case}-arm.svg").unlink(missing_ok=True)
@@ -91,7 +90,6 @@ def where_the_time_goes(problem: Problem, ladder: LadderRecord, rows: Sequence[R
         Its bounds.
     rows : sequence of Row
         Its rows; PSO is shown if it ran, else the swarm of the first row.
-
     """
     swarm = rows[0].swarm if all(row.swarm != "pso" for row in rows) else "pso"
     splits = {}
@@ -99,7 +97,5 @@ def where_the_time_goes(problem: Problem, ladder: LadderRecord, rows: Sequence[R
         mine = [row for row in rows if row.swarm == swarm and row.coding == coding]
         seconds = lower_median(times_of(mine))
         if seconds is not None and ladder["ladder"]["free_form"]["seconds"]:
-            splits[coding] = split(
-                ladder["ladder"], seconds, coding, has_jerk=problem.limits.has_jerk
-            )
+            splits[coding] = split(problem, ladder["ladder"], seconds, coding)
     return split_figure(f"{problem.name}: where the time of {swarm} goes (median seed)", splits)

@@ -24,7 +24,6 @@ def gap_figure(problem: Problem, rows: Sequence[Row]) -> Figure:
     problem : Problem
     rows : sequence of Row
         Its rows.
-
     """
     swarms = list(dict.fromkeys(row.swarm for row in rows))
     codings = list(dict.fromkeys(row.coding for row in rows))

@@ -33,7 +33,6 @@ def motion_figure(problem: Problem, ladder: LadderRecord, rows: Sequence[Row]) -
         Its bounds; the optimum of the family is drawn where no swarm has a verified motion.
     rows : sequence of Row
         Its rows.
-
     """
     family = FAMILIES[problem.family]
     best = best_row(rows)
@@ -131,7 +130,6 @@ def samples(motion: Trajectory, joint: int, order: int) -> tuple[Array, Array]:
     -------
     times : Array, shape (m,) [s]
     values : Array, shape (m,) [rad/s^order]
-
     """
     s = np.linspace(1e-9, 1.0 - 1e-9, 60)
     t = (motion.breaks[:-1, None] + motion.durations[:, None] * s).ravel()

@@ -1,57 +1,352 @@
-"""Commands: what they print, and one clear line for bad input."""
+"""Every command of the list: help, README, bad input in one line, strict JSON, a quick start."""
 
 from __future__ import annotations
 
+import json
+import os
+import pty
+import subprocess
+import sys
+import time
 from pathlib import Path
+from typing import Any
 
 import pytest
-from commands_run import command
+
+from compare.__main__ import application, first_steps, main
+from compare.commands import COMMANDS
+from formulations import NoFeasibleMotion
+
+ROOT = Path(__file__).parents[3]
+
+
+def strict(text: str) -> Any:
+    """JSON without NaN and infinity."""
+
+    def refuse(name: str) -> Any:
+        raise AssertionError(f"{name} is no JSON")
+
+    return json.loads(text, parse_constant=refuse)
+
+
+def process(*arguments: str, **more: Any) -> subprocess.CompletedProcess[str]:
+    return subprocess.run(
+        [sys.executable, *arguments], cwd=ROOT, capture_output=True, text=True, check=False, **more
+    )
+
+
+# --- all of them ----------------------------------------------------------------------------------
+
+
+@pytest.mark.parametrize("name", COMMANDS)
+@pytest.mark.parametrize("columns", ["60", "80", "200"])
+def test_help_names_the_command_its_options_and_an_example(
+    name: str, columns: str, monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
+) -> None:
+    monkeypatch.setenv("COLUMNS", columns)
+    assert main([name, "--help"]) == 0
+    shown = capsys.readouterr().out
+    assert f"Usage: timebound {name}" in shown
+    assert "Example: " in shown
+    assert "\x1b" not in shown
+    assert shown.endswith("\n")
+    assert max(map(len, shown.splitlines())) <= int(columns)
+    for option in application()[name].assemble_argument_collection():
+        if option.parameter.show:
+            assert option.parameter.help, option.name  # every option says what it is
+
+
+@pytest.mark.parametrize("name", COMMANDS)
+def test_the_readme_has_every_command(name: str) -> None:
+    lines = (ROOT / "README.md").read_text("utf-8").splitlines()
+    assert any(line.startswith(f"timebound {name} ") or line == f"timebound {name}" for line in lines)
+
+
+@pytest.mark.parametrize("name", COMMANDS)
+def test_an_example_can_be_parsed(name: str) -> None:
+    import shlex
+
+    program, *arguments = shlex.split(COMMANDS[name].example)
+    assert program == "timebound"
+    if name == "rivals":
+        pytest.importorskip("compare.studies.rivals")
+    application(name).parse_args(arguments, exit_on_error=False, print_error=False)
+
+
+@pytest.mark.parametrize("name", COMMANDS)
+def test_an_unknown_option_is_one_line(name: str, capsys: pytest.CaptureFixture[str]) -> None:
+    given = [name, "sr4c"] if name in NEED_A_FILE else [name]
+    assert main([*given, "--nonsense", "1"]) == 2
+    said = capsys.readouterr()
+    assert said.err.startswith("error: ")
+    assert "--nonsense" in said.err
+    assert said.err.count("\n") == 1
+    assert said.out == ""
+
+
+NEED_A_FILE = ("solve", "plan", "split", "motion_picture", "check_certificate", "report")
+
+BAD = {
+    "solve": (["nowhere.toml"], "nowhere.toml: no such file"),
+    "plan": (["sr4c", "--stop", "soon"], '--stop: unable to convert "soon" into int'),
+    "split": (["sr4c", "--swarm", "psoo"], "--swarm: 'psoo' is not known; did you mean 'pso'?"),
+    "motion_picture": (["sr4d"], "CASE: no arm is known for 'sr4d'"),
+    "check_certificate": (["nowhere.json"], "nowhere.json: cannot be read"),
+    "all": (["--cases", "sr4d"], "--cases: 'sr4d' is not known; did you mean 'sr4c'?"),
+    "report": (["/nowhere"], "/nowhere: holds no comparison"),
+    "audit": (["nowhere.toml"], "nowhere.toml"),
+    "papers": (["sr4x"], "KEY: 'sr4x' is not known; did you mean 'sr4c'?"),
+    "table8": (["--runs", "0"], "--runs: 0 is not positive"),
+    "ablation": (["--jobs", "0"], "--jobs: 0 is not positive"),
+    "readings": (["--seeds", "-3"], "--seeds: -3 is not positive"),
+    "bias": (["--cases", ","], "--cases: none given (known: bagging"),
+    "proofs": (["--each", "two"], '--each: unable to convert "two" into int'),
+    "speed": (["--case", "bagging"], "--case: the papers' 14x14 matrix is 3-5-3's, bagging is 4-3-4"),
+    "free_form_study": (["--solver", "x"], '--solver: Invalid value "x"'),
+    "rivals": (["--rivals", "pilz"], "--rivals: 'pilz' is not known (known: drake, pyroboplan)"),
+}
+
+
+@pytest.mark.parametrize("name", COMMANDS)
+def test_bad_input_is_one_line_that_names_key_and_value(
+    name: str, capsys: pytest.CaptureFixture[str]
+) -> None:
+    arguments, words = BAD[name]
+    assert main([name, *arguments]) == 2
+    said = capsys.readouterr()
+    assert said.err.startswith(f"error: {words}"), said.err
+    assert said.err.count("\n") == 1
+    assert said.out == ""
+
+
+# --- how it starts and ends -----------------------------------------------------------------------
+
+
+def test_nothing_heavy_is_loaded_for_the_list_of_commands() -> None:
+    code = (
+        "import sys; from compare.__main__ import main; main(['--help']); main([]);"
+        "print(sorted({'numpy', 'casadi', 'numba', 'formulations', 'matplotlib'} & {*sys.modules}))"
+    )
+    found = process("-c", code)
+    assert found.stdout.splitlines()[-1] == "[]"
+    best = 9.0
+    for _ in range(3):  # other tests run beside this one
+        started = time.perf_counter()
+        process("-m", "compare", "--help")
+        best = min(best, time.perf_counter() - started)
+    assert best < 2.0
+
+
+def test_the_checker_is_run_without_loading_the_prover(tmp_path: Path) -> None:
+    (tmp_path / "proof.json").write_text("{}")
+    code = (
+        "import sys; from compare.__main__ import main;"
+        f"main(['check_certificate', {str(tmp_path / 'proof.json')!r}]);"
+        "print(sorted({'formulations', 'numba', 'casadi', 'metaheuristics'} & {*sys.modules}))"
+    )
+    assert process("-c", code).stdout.splitlines()[-1] == "[]"
+
+
+def test_alone_it_shows_first_steps_and_every_command(capsys: pytest.CaptureFixture[str]) -> None:
+    assert main([]) == 0
+    shown = capsys.readouterr().out
+    assert shown.strip() == first_steps().strip()
+    for name in COMMANDS:
+        assert f"\n  {name} " in shown
+    for line in shown.splitlines():  # what it tells people to type is there
+        if line.startswith("  timebound "):
+            assert line.split()[1] in COMMANDS
+    assert max(map(len, shown.splitlines())) <= 104
+
+
+def test_a_dash_does_for_an_underscore(capsys: pytest.CaptureFixture[str]) -> None:
+    assert main(["check-certificate", "--help"]) == 0
+    assert "timebound check_certificate" in capsys.readouterr().out
+
+
+def test_a_misspelt_command_is_told_the_nearest(capsys: pytest.CaptureFixture[str]) -> None:
+    assert main(["sovle"]) == 2
+    assert 'Did you mean "solve"?' in capsys.readouterr().err
+
+
+def test_the_version_is_that_of_the_package(capsys: pytest.CaptureFixture[str]) -> None:
+    assert main(["--version"]) == 0
+    assert capsys.readouterr().out.strip()
+
+
+@pytest.mark.parametrize("module", ["all", "solve", "audit", "papers", "check_certificate"])
+def test_old_spellings_still_work(module: str) -> None:
+    done = process("-m", f"compare.{module}", "--help")
+    assert done.returncode == 0, done.stderr
+    assert f"Usage: timebound {module}" in done.stdout
+
+
+def test_a_task_without_a_solution_ends_with_2_and_the_reason(
+    monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str], tmp_path: Path
+) -> None:
+    from compare.commands import motion_picture
+
+    def none(problem: Any) -> Any:
+        raise NoFeasibleMotion("sr4c: every spline leaves the position limits")
+
+    monkeypatch.setattr(motion_picture, "family_optimum", none)
+    assert main(["motion_picture", "sr4c", "--out", str(tmp_path / "x.svg")]) == 2
+    assert capsys.readouterr().err == "error: sr4c: every spline leaves the position limits\n"
+
+
+def test_an_interrupt_is_one_line(
+    monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str], tmp_path: Path
+) -> None:
+    from compare.commands import motion_picture
+
+    def interrupted(problem: Any) -> Any:
+        raise KeyboardInterrupt
+
+    monkeypatch.setattr(motion_picture, "family_optimum", interrupted)
+    assert main(["motion_picture", "sr4c", "--out", str(tmp_path / "x.svg")]) == 130
+    assert capsys.readouterr().err == "interrupted; what was finished is on disk\n"
+
+
+def test_a_fault_of_the_program_is_not_taken_for_bad_input(monkeypatch: pytest.MonkeyPatch) -> None:
+    from compare.commands import motion_picture
+
+    def broken(problem: Any) -> Any:
+        raise ArithmeticError("planted")
+
+    monkeypatch.setattr(motion_picture, "family_optimum", broken)
+    with pytest.raises(ArithmeticError, match="planted"):
+        main(["motion_picture", "sr4c"])
+
+
+def test_a_reader_that_has_gone_is_not_an_error_message() -> None:
+    shell = f"{sys.executable} -m compare papers --list | head -c 1"
+    done = subprocess.run(["bash", "-c", shell], cwd=ROOT, capture_output=True, text=True, check=False)
+    assert "Traceback" not in done.stderr
+    assert "BrokenPipe" not in done.stderr
+
+
+def test_completion_is_installed_where_it_is_asked_for(tmp_path: Path) -> None:
+    script = tmp_path / "timebound.bash"
+    home = {**os.environ, "HOME": str(tmp_path)}
+    done = process(
+        "-m", "compare", "--install-completion", "--shell", "bash", "--output", str(script), env=home
+    )
+    assert done.returncode == 0, done.stderr
+    text = script.read_text()
+    assert all(name in text for name in COMMANDS)
+
+
+# --- what is piped --------------------------------------------------------------------------------
+
+
+PROBLEM = "waypoints = [[0.0], [1.0], [0.5], [2.0]]\n[limits]\nvelocity = 1.0\nacceleration = 2.0\n"
+
+
+@pytest.fixture(scope="module")
+def problem(tmp_path_factory: pytest.TempPathFactory) -> Path:
+    path = tmp_path_factory.mktemp("problem") / "mine.toml"
+    path.write_text(PROBLEM)
+    return path
 
 
 @pytest.mark.parametrize(
-    ("options", "words"),
+    "arguments",
     [
-        (("all", "--cases", "sr4d"), ("--cases", "sr4d", "sr4c", "bagging")),
-        (("all", "--swarms", "psoo"), ("--swarms", "psoo", "pso-linear", "whale")),
-        (("all", "--swarms", "nowhere:swarm"), ("--swarms", "nowhere:swarm", "ModuleNotFoundError")),
-        (("all", "--swarms", "ipso"), ("--swarms", "ipso", "not reproducible")),
-        (("all", "--apart", "0"), ("--apart", "0")),
-        (("all", "--codings", "x"), ("--codings", "published", "stretched")),
-        (("all", "--cases", ","), ("--cases", "none given", "sr4c")),
-        (("all", "--seeds", "0"), ("--seeds", "0")),
-        (("all", "--jobs", "-1"), ("--jobs", "-1")),
-        (("all", "--budget", "many"), ("--budget", "many")),
-        (("all", "--quickly"), ("--quickly",)),
-        (("all", "--quick", "--full"), ("--full", "--quick")),
-        (("all", "--out", "/dev/null/report"), ("--out", "/dev/null/report")),
-        (("solve", "nowhere.toml"), ("nowhere.toml", "no such file", "sr4c")),
-        (("solve",), ("FILE",)),
-        (("solve", "sr4c", "--json", "/dev/null/x.json"), ("/dev/null/x.json", "cannot be written")),
-        (("report", "/nowhere"), ("/nowhere",)),
-        (("speed", "--case", "bagging"), ("bagging", "3-5-3")),
+        ["solve", "{}"],
+        ["plan", "{}"],
+        ["split", "{}", "--budget", "100", "--codings", "stretched"],
+        ["papers", "--list"],
+        ["audit", "bagging"],
+        ["speed", "--case", "{}", "--rounds", "1"],
+        ["free_form_study", "--count", "1"],
+        ["proofs", "--count", "1", "--segments", "2", "--each", "1", "--jobs", "1", "--out", "{out}"],
     ],
+    ids=lambda arguments: arguments[0],
 )
-def test_bad_input_is_one_clear_line_and_exit_code_2(
-    options: tuple[str, ...], words: tuple[str, ...]
+def test_json_on_standard_output_is_strict_and_alone(
+    arguments: list[str],
+    problem: Path,
+    tmp_path: Path,
+    capsys: pytest.CaptureFixture[str],
+    monkeypatch: pytest.MonkeyPatch,
 ) -> None:
-    done = command(*options)
-    assert done.returncode == 2, done.stderr
-    last = done.stderr.strip().splitlines()[-1]
-    assert "Traceback" not in done.stderr
-    for word in words:
-        assert word in last
+    from compare.studies import free_form_study, proofs
+
+    monkeypatch.setattr(free_form_study, "cases", lambda: iter(()))
+    monkeypatch.setattr(free_form_study, "extremes", lambda: iter(()))
+    monkeypatch.setattr(proofs, "GAPS", (1e-2,))
+    given = [part.replace("{out}", str(tmp_path)).replace("{}", str(problem)) for part in arguments]
+    assert main([*given, "--json", "-"]) == 0
+    said = capsys.readouterr()
+    on_screen = strict(said.out)
+    assert on_screen
+    assert "\x1b" not in said.err
 
 
-def test_solve_prints_the_ladder_and_writes_it_as_json(tmp_path: Path) -> None:
+def test_json_goes_to_a_file_beside_the_text(
+    problem: Path, tmp_path: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
     target = tmp_path / "ladder.json"
-    done = command("solve", "cobot", "--json", str(target))
-    assert done.returncode == 0, done.stderr
-    assert "3.3495" in done.stdout
-    assert '"family_longest_segment"' in target.read_text()
+    assert main(["solve", str(problem), "--json", str(target)]) == 0
+    shown = capsys.readouterr().out
+    found = strict(target.read_text())
+    assert set(found) >= {"problem", "ladder", "durations", "versions", "diagnosis"}
+    for key, rung in found["ladder"].items():
+        assert set(rung) == {"seconds", "kind", "status", "certified", "runtime", "note"}
+        assert key in shown
 
 
-def test_speed_names_its_rivals_and_their_errors() -> None:
-    done = command("speed", "--rounds", "1")
-    assert done.returncode == 0, done.stderr
-    for word in ("14x14", "one candidate at a time", "independent check", "times slower"):
-        assert word in done.stdout
+def test_certificates_are_judged_as_json_too(
+    problem: Path, tmp_path: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
+    pytest.importorskip("flint")
+    proof = tmp_path / "proof.json"
+    assert main(["solve", str(problem), "--certificate", str(proof)]) == 0
+    capsys.readouterr()
+    assert main(["check_certificate", str(proof), "--json", "-"]) == 0
+    assert strict(capsys.readouterr().out)["certified"] is True
+    other = tmp_path / "other.toml"
+    other.write_text(PROBLEM.replace("2.0]]", "2.5]]"))
+    assert main(["check_certificate", str(proof), "--problem", str(other), "--json", "-"]) == 1
+    found = strict(capsys.readouterr().out)
+    assert found["certified"] is False
+    assert "waypoints differ" in found["words"]
+
+
+def test_a_problem_without_any_motion_ends_solve_with_2(
+    problem: Path, capsys: pytest.CaptureFixture[str], monkeypatch: pytest.MonkeyPatch
+) -> None:
+    from dataclasses import replace
+
+    from compare.commands import solve
+    from formulations import Ladder, ladder, load
+
+    climbed = ladder(load(str(problem)))
+    rungs = {
+        key: replace(rung, status="failed", seconds=None, note="no room to move")
+        if rung.kind == "upper" else rung
+        for key, rung in climbed.rungs.items()
+    }  # fmt: skip
+    hopeless: Ladder = replace(climbed, rungs=rungs, trajectories={}, free_form=None)
+    monkeypatch.setattr(solve, "ladder", lambda *given, **more: hopeless)
+    assert main(["solve", str(problem)]) == 2
+    said = capsys.readouterr()
+    assert said.err == "error: problem: no motion was found: no room to move\n"
+    assert "no motion is faster" in said.out  # the bounds still stand
+
+
+def test_a_table_is_not_cut_off_when_piped_and_wrapped_on_a_terminal() -> None:
+    code = "from compare.screen import table; print(table(['a', 'what'], [['x' * 30, 'word ' * 30]]))"
+    piped = process("-c", code, env={**os.environ, "COLUMNS": "80"}).stdout
+    assert max(map(len, piped.splitlines())) > 150
+    assert piped.count("word") == 30
+    leader, follower = pty.openpty()
+    with os.fdopen(follower, "w") as screen:
+        subprocess.run(
+            [sys.executable, "-c", code], cwd=ROOT, stdout=screen, check=True,
+            env={**os.environ, "COLUMNS": "80"},
+        )  # fmt: skip
+    shown = os.read(leader, 100_000).decode()
+    os.close(leader)
+    assert shown.count("word") == 30
+    assert max(map(len, shown.splitlines())) <= 80

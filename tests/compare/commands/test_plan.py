@@ -3,28 +3,22 @@
 from __future__ import annotations
 
 import json
-import sys
 from pathlib import Path
 
 import numpy as np
 import pytest
 
-from compare.commands import plan
-from formulations import InputError, load
+from compare.__main__ import main
+from formulations import load
 from formulations.motion.motion_file import read_motion
 
 
-def run(monkeypatch: pytest.MonkeyPatch, *arguments: str) -> int:
-    monkeypatch.setattr(sys, "argv", ["plan", *arguments])
-    return plan.main()
-
-
 def test_a_stop_and_a_passage_are_kept_and_the_file_holds_the_motion(
-    tmp_path: Path, monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
+    tmp_path: Path, capsys: pytest.CaptureFixture[str]
 ) -> None:
     motion, out = tmp_path / "m.csv", tmp_path / "m.json"
     arguments = ("ur5", "--stop", "1", "--pass", "2=12.5", "--export", str(motion), "--json", str(out))
-    assert run(monkeypatch, *arguments) == 0
+    assert main(["plan", *arguments]) == 0
     data = json.loads(out.read_text())
     first, second = data["passage_times"][1:3]
     assert second == pytest.approx(12.5, abs=1e-9)
@@ -44,15 +38,31 @@ def test_a_stop_and_a_passage_are_kept_and_the_file_holds_the_motion(
         (("--total", "10"), "conditions.total; the fastest one found passes waypoint 3 at 14.76"),
         (("--total", "nan"), "nan"),
         (("--start-velocity", "1,2"), "--start-velocity: expected 6 finite numbers"),
+        (("--start-velocity", "-1,2"), "--start-velocity: expected 6 finite numbers, got '-1,2'"),
         (("--end-velocity", "a"), "--end-velocity: 'a' is not a list"),
         (("--end-velocity", "0,0,0,0,0,9"), "joint 6: 9 rad/s is over the limit"),
-        (("--gap", "0"), "tolerance: 0"),
+        (("--gap", "0"), "--gap: 0 is not positive"),
+        (("--rate", "0"), "--rate: 0 is not positive"),
+        (("--export", "nowhere/motion.csv"), "--export: nowhere/motion.csv: cannot be written"),
     ],
 )
 def test_misuse_is_one_line(
-    arguments: tuple[str, ...], message: str, monkeypatch: pytest.MonkeyPatch
+    arguments: tuple[str, ...], message: str, capsys: pytest.CaptureFixture[str]
 ) -> None:
-    with pytest.raises(InputError) as caught:
-        run(monkeypatch, "ur5", *arguments)
-    assert message in str(caught.value)
-    assert "\n" not in str(caught.value)
+    assert main(["plan", "ur5", *arguments]) == 2
+    said = capsys.readouterr()
+    assert said.err.startswith("error: ")
+    assert message in said.err
+    assert said.err.count("\n") == 1
+    assert said.out == ""
+
+
+def test_a_task_without_a_solution_is_told_as_a_bad_file_is(capsys: pytest.CaptureFixture[str]) -> None:
+    assert main(["plan", "ur5", "--total", "10"]) == 2
+    infeasible = capsys.readouterr().err
+    assert main(["plan", "nowhere.toml"]) == 2
+    missing = capsys.readouterr().err
+    # both: error, what was asked for, the reason; no colon less, no line more
+    assert infeasible.startswith("error: ur5: no motion found")
+    assert missing.startswith("error: nowhere.toml: no such file")
+    assert infeasible.count("\n") == missing.count("\n") == 1

@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import json
-import sys
 from pathlib import Path
 from typing import Any
 
@@ -11,9 +10,9 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from compare.commands import split as module
-from compare.commands.split import as_text, path_timing, split, split_figure
-from formulations import InputError
+from compare.__main__ import main
+from compare.studies.time_split import as_text, path_timing, split, split_figure
+from formulations import InputError, Limits, Problem
 
 LADDER = {
     "free_form_lower": 2.9,
@@ -23,10 +22,15 @@ LADDER = {
     "toppra_family_path": 3.14,
     "copp_family_path": None,
 }
+WITHOUT_JERK = Problem.of([[0.0], [1.0], [0.5], [2.0]], Limits.of(1.0, 2.0, dof=1))
+WITH_JERK = Problem.of([[0.0], [1.0], [0.5], [2.0]], Limits.of(1.0, 2.0, 9.0, dof=1))
 
 
 def rungs(**changes: float | None) -> dict[str, Any]:
-    return {key: {"seconds": value, "note": ""} for key, value in {**LADDER, **changes}.items()}
+    found = {key: {"seconds": value, "note": ""} for key, value in {**LADDER, **changes}.items()}
+    if found["copp_family_path"]["seconds"] is None:
+        found["copp_family_path"]["note"] = "whatever the reason is called"
+    return found
 
 
 TIMES = st.floats(0.01, 100.0)
@@ -36,9 +40,12 @@ TIMES = st.floats(0.01, 100.0)
     values=st.tuples(TIMES, TIMES, TIMES, TIMES, TIMES, st.none() | TIMES),
     seconds=TIMES,
     coding=st.sampled_from(["published", "shared", "stretched"]),
+    problem=st.sampled_from([WITHOUT_JERK, WITH_JERK]),
 )
-def test_the_shares_add_up(values: tuple[Any, ...], seconds: float, coding: str) -> None:
-    shares = split(rungs(**dict(zip(LADDER, values, strict=True))), seconds, coding, has_jerk=False)
+def test_the_shares_add_up(
+    values: tuple[Any, ...], seconds: float, coding: str, problem: Problem
+) -> None:
+    shares = split(problem, rungs(**dict(zip(LADDER, values, strict=True))), seconds, coding)
     assert shares[0].low == values[0]
     assert shares[-1].high == seconds
     assert values[0] + sum(s.seconds for s in shares) == pytest.approx(seconds, abs=1e-9)
@@ -46,7 +53,7 @@ def test_the_shares_add_up(values: tuple[Any, ...], seconds: float, coding: str)
 
 
 def test_each_share_is_the_difference_of_its_rungs() -> None:
-    shares = {s.name: s.seconds for s in split(rungs(), 5.1, "published", has_jerk=False)}
+    shares = {s.name: s.seconds for s in split(WITHOUT_JERK, rungs(), 5.1, "published")}
     assert shares == pytest.approx(
         {
             "proof": 2.91 - 2.9,
@@ -59,21 +66,22 @@ def test_each_share_is_the_difference_of_its_rungs() -> None:
 
 
 def test_the_path_is_timed_under_every_limit_or_not_at_all() -> None:
-    assert path_timing(rungs(copp_family_path=3.3), has_jerk=True) == "copp_family_path"
-    assert path_timing(rungs(), has_jerk=False) == "toppra_family_path"
-    # whatever the reason is that COPP gave no number, TOPP-RA's lacks the jerk limits
-    assert path_timing(rungs(), has_jerk=True) is None
-    shares = split(rungs(), 5.0, "shared", has_jerk=True)
+    """TOPP-RA knows no jerk limit; which of the two holds follows from the problem, not from a note."""
+    assert path_timing(WITH_JERK, rungs(copp_family_path=3.3)) == "copp_family_path"
+    assert path_timing(WITHOUT_JERK, rungs()) == "toppra_family_path"
+    assert path_timing(WITHOUT_JERK, rungs(toppra_family_path=None)) is None
+    assert path_timing(WITH_JERK, rungs()) is None
+    shares = split(WITH_JERK, rungs(), 5.0, "shared")
     assert [s.name for s in shares] == ["proof", "family", "optimiser"]
 
 
 def test_a_ladder_without_a_free_form_motion_is_refused() -> None:
     with pytest.raises(InputError, match="no free_form"):
-        split(rungs(free_form=None), 5.0, "shared", has_jerk=False)
+        split(WITHOUT_JERK, rungs(free_form=None), 5.0, "shared")
 
 
 def test_the_picture_shows_every_share_and_survives_negative_ones() -> None:
-    splits = {c: split(rungs(family=3.1), 5.1, c, has_jerk=False) for c in ("published", "stretched")}
+    splits = {c: split(WITHOUT_JERK, rungs(family=3.1), 5.1, c) for c in ("published", "stretched")}
     figure = split_figure("title", splits)
     names = {text.get_text() for text in figure.axes[0].get_legend().get_texts()}
     assert names == {"no motion is faster (certified)", *(s.name for s in splits["published"])}
@@ -81,16 +89,10 @@ def test_the_picture_shows_every_share_and_survives_negative_ones() -> None:
     split_figure("nothing", {})
 
 
-def test_the_command_splits_a_case(
-    tmp_path: Path, monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
-) -> None:
+def test_the_command_splits_a_case(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
     out, picture = tmp_path / "split.json", tmp_path / "split.svg"
-    monkeypatch.setattr(
-        sys,
-        "argv",
-        ["split", "sr4c", "--budget", "100", "--json", str(out), "--figure", str(picture)],
-    )
-    assert module.main() == 0
+    options = ["--budget", "100", "--json", str(out), "--figure", str(picture)]
+    assert main(["split", "sr4c", *options]) == 0
     data = json.loads(out.read_text())
     assert set(data["split"]) == {"published", "shared", "stretched"}
     for shares in data["split"].values():

@@ -5,7 +5,6 @@ from __future__ import annotations
 import json
 import os
 import re
-import sys
 from pathlib import Path
 from typing import Any
 
@@ -13,13 +12,12 @@ import matplotlib.pyplot as plt
 import numpy as np
 import pytest
 
+from compare.__main__ import main
 from compare.audit.paper_file import load_papers
 from compare.audit.printed import values
 from compare.benchmark.objective import Objective, search_box
 from compare.benchmark.suite import PAPER_BUDGETS
-from compare.commands import shared as commands
-from compare.papers import ITEMS, page
-from compare.papers import __main__ as papers
+from compare.papers import ITEMS, page, shelf
 from compare.papers.inverse import make_inverse
 from compare.papers.item import Item, Shown, Table
 from compare.papers.li_2022.evolution import evolution
@@ -234,12 +232,8 @@ def show(data: dict[str, Any]) -> Shown:
     return Shown([Table(["answer"], [[str(data["answer"])]])], ["It is what it is."])
 
 
-def run(monkeypatch: pytest.MonkeyPatch, *options: str) -> int:
-    monkeypatch.setattr(sys, "argv", ["papers", *options])
-    with pytest.raises(SystemExit) as end:
-        commands.run(papers.main)
-    assert isinstance(end.value.code, int)
-    return end.value.code
+def run(*options: str) -> int:
+    return main(["papers", *options])
 
 
 def test_failing_items_have_a_status_and_cost_no_other_item(
@@ -254,7 +248,7 @@ def test_failing_items_have_a_status_and_cost_no_other_item(
     monkeypatch.setenv("TIMEBOUND_COUNT", str(count))
     monkeypatch.setitem(ITEMS, "sr4c", items)
     options = ("sr4c", "--out", str(tmp_path), "--jobs", "1")
-    assert run(monkeypatch, *options) == 1
+    assert run(*options) == 1
     errors = capsys.readouterr().err
     assert "sr4c: Table 2: failed: ArithmeticError: planted <fault> (test_papers.py, line" in errors
     assert "sr4c: Table 3: died: its process ended" in errors
@@ -272,11 +266,11 @@ def test_failing_items_have_a_status_and_cost_no_other_item(
 
     # what is finished is not made again, unless it is of another size; with nothing failing, all is well
     monkeypatch.setitem(ITEMS, "sr4c", items[:1])
-    assert run(monkeypatch, *options, "--resume") == 0
+    assert run(*options, "--resume") == 0
     assert count.read_text("utf-8") == "made\n"
-    assert papers.shelf.finished(tmp_path, "sr4c", items[0], False)
-    assert not papers.shelf.finished(tmp_path, "sr4c", items[0], True)
-    assert not papers.shelf.finished(tmp_path, "sr4c", items[1], False)
+    assert shelf.finished(tmp_path, "sr4c", items[0], False)
+    assert not shelf.finished(tmp_path, "sr4c", items[0], True)
+    assert not shelf.finished(tmp_path, "sr4c", items[1], False)
 
 
 def test_an_item_that_cannot_be_shown_costs_no_other_item(tmp_path: Path) -> None:
@@ -286,8 +280,8 @@ def test_an_item_that_cannot_be_shown_costs_no_other_item(tmp_path: Path) -> Non
         Item("Table 3", "", fine, show),
     ]
     for item, data in zip(items, ({"answer": 1}, {"other": 2}), strict=False):
-        stored = papers.shelf.Made(False, "ok", "", 0.0, "v", "m", data)
-        papers.shelf.keep(tmp_path, "sr4c", item, stored)
+        stored = shelf.Made(False, "ok", "", 0.0, "v", "m", data)
+        shelf.keep(tmp_path, "sr4c", item, stored)
     _, faults = page.render(str(tmp_path), "sr4c", items)
     assert faults == {
         "Table 2": "failed: cannot be shown: KeyError: 'answer'",
@@ -299,7 +293,7 @@ def test_an_item_that_cannot_be_shown_costs_no_other_item(tmp_path: Path) -> Non
 @pytest.mark.parametrize(
     ("options", "named"),
     [
-        (["sr4x"], "KEY: 'sr4x' is not known (known: sr4c, bagging"),
+        (["sr4x"], "KEY: 'sr4x' is not known; did you mean 'sr4c'? (known: sr4c, bagging"),
         (
             ["bagging", "--item", "Table 99"],
             "--item: 'Table 99' is not an item of bagging (known: Table 2",
@@ -310,11 +304,10 @@ def test_an_item_that_cannot_be_shown_costs_no_other_item(tmp_path: Path) -> Non
 def test_bad_input_is_one_line_that_names_it(
     options: list[str],
     named: str,
-    monkeypatch: pytest.MonkeyPatch,
     capsys: pytest.CaptureFixture[str],
     tmp_path: Path,
 ) -> None:
-    assert run(monkeypatch, *options, "--out", str(tmp_path)) == 2
+    assert run(*options, "--out", str(tmp_path)) == 2
     error = capsys.readouterr().err
     assert named in error
     assert error.count("\n") == 1

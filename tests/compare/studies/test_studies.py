@@ -97,12 +97,12 @@ def test_zero_moved_away_changes_nothing_for_pso_and_all_for_whales() -> None:
     assert summary["sparrow"]["translated"] is not None
     assert summary["sparrow"]["translated"] > 1e6
     assert summary["pso"]["mirrored"] is None  # not measured
-    assert "whale" in bias.as_text(summary)
+    assert "whale" in bias.as_text(rows, summary)
 
 
 def test_a_planted_bias_is_measured() -> None:
     rows = [
-        bias.Row("f", place, "s", "", seed, 1, error * (1 + seed), "ok")
+        bias.BiasRun("f", place, "s", "", seed, 1, error * (1 + seed), "ok")
         for place, error in (("centre", 1e-6), ("translated", 1e-6), ("shifted", 1e-3))
         for seed in range(3)
     ]
@@ -216,7 +216,7 @@ def test_readings_are_summed_up_with_what_was_not_solved() -> None:
     question = next(iter(readings.READINGS))
     first, second = list(readings.READINGS[question])
     rows = [
-        readings.Row(q, r, "c", seed, 1, None if (r == second and seed) else 1e-6, "ok")
+        readings.ReadingRun(q, r, "c", seed, 1, None if (r == second and seed) else 1e-6, "ok")
         for q, answers in readings.READINGS.items()
         for r in answers
         for seed in range(3)
@@ -235,7 +235,7 @@ def test_a_swarms_own_work_is_at_most_twice_its_objective() -> None:
 
 def test_pictures_are_drawn(tmp_path: Path) -> None:
     rows = [row for s in ("pso", "whale") for row in bias.on_function("sphere", s, 1, 100)]
-    figure = bias.bias_figure(bias.summarise(rows))
+    figure = bias.bias_figure(rows, bias.summarise(rows))
     figure.savefig(tmp_path / "bias.svg")
     text = (tmp_path / "bias.svg").read_text()
     assert len(text) > 5000

@@ -1,0 +1,89 @@
+"""A certificate as a file, and whether it is about a given problem."""
+
+from __future__ import annotations
+
+import json
+from math import inf
+from pathlib import Path
+from typing import Any
+
+from compare.check_certificate.answers import BadInput, need
+
+_LARGEST_FILE = 400_000_000  # bytes
+
+
+def read(path: Path) -> Any:
+    """Read the data of a certificate.
+
+    Parameters
+    ----------
+    path : Path
+        The file.
+
+    Returns
+    -------
+    Any
+        Its JSON, not yet judged.
+
+    Raises
+    ------
+    BadInput
+        It cannot be read, is too large, or is not JSON.
+    """
+
+    def no_constant(name: str) -> Any:
+        raise BadInput(f"{path}: {name} in the file")
+
+    try:
+        if path.stat().st_size > _LARGEST_FILE:
+            raise BadInput(f"{path}: larger than {_LARGEST_FILE} bytes")
+        return json.loads(path.read_text("utf-8"), parse_constant=no_constant)
+    except OSError as error:
+        raise BadInput(f"{path}: cannot be read: {error.strerror or error}") from None
+    except (ValueError, RecursionError) as error:
+        raise BadInput(f"{path}: not valid JSON: {str(error)[:100]}") from None
+
+
+def compare_with(data: Any, file_or_case: str) -> None:
+    """Refuse a certificate of another problem.
+
+    This is the one place that uses the project's own loader.
+
+    Parameters
+    ----------
+    data : Any
+        A certificate that was verified.
+    file_or_case : str
+        The problem it must be about.
+
+    Raises
+    ------
+    Refused
+        Waypoints, limits or family differ.
+    BadInput
+        The problem cannot be read.
+    """
+    from formulations import InputError, load
+
+    try:
+        problem = load(file_or_case)
+    except InputError as error:
+        raise BadInput(str(error)) from None
+
+    def same(key: str, ours: Any, theirs: Any) -> None:
+        ours = [[float(x) for x in row] for row in ours]
+        theirs = [[-inf if x is None else float.fromhex(x) for x in row] for row in theirs]
+        ours = [[-inf if abs(x) == inf else x for x in row] for row in ours]
+        need(ours == theirs, f"{key} differ from those of {file_or_case}")
+
+    limits, claimed = problem.limits, data["limits"]
+    need(
+        data["family"] in (problem.family, "every-motion"),
+        f"family differs from that of {file_or_case}",
+    )
+    same("waypoints", problem.waypoints, data["waypoints"])
+    for key in ("velocity", "acceleration", "jerk"):
+        same(f"limits.{key}", [getattr(limits, key)], [claimed[key]])
+    same("limits.position", limits.position, claimed["position"])
+    slack = float.fromhex(data["position_slack"])
+    need(slack >= problem.position_slack, "position_slack is less than the check allows")

@@ -1,0 +1,116 @@
+"""``timebound all``: every case, swarm and coding, the papers' audits, the studies, and the report."""
+
+from __future__ import annotations
+
+import time
+from typing import Annotated
+
+from cyclopts import Parameter
+
+from compare.benchmark import suite
+from compare.benchmark.known_times import key_of_paper
+from compare.benchmark.objective import CODINGS
+from compare.benchmark.run import audits, climb, swarm, tabulate_known_times, warm_up, workers
+from compare.benchmark.store import Settings, Store
+from compare.commands import DONE
+from compare.commands.options import CORES, Cases, Codings, Jobs, Out, Swarms, positive
+from compare.files import output_folder
+from compare.report.page import render
+from compare.studies import bias, proofs, study
+from formulations import CASES, InputError, load
+
+# random 3-5-3 problems, most segments, problems per size: what a proof costs, in the report
+PROOFS = {"default": (40, 5, 1), "full": (1000, 8, 2)}
+# which swarms are drawn to zero: functions, arms, seeds, evaluations
+BIAS: dict[str, tuple[list[str], list[str], int, int]] = {
+    "default": (["sphere"], ["sr4c"], 5, 2550),
+    "full": (list(bias.FUNCTIONS), ["sr4c", "ur5", "cobot", "bagging"], 10, 5000),
+}
+
+
+def compare_all(
+    *,
+    quick: bool = False,
+    full: bool = False,
+    out: Out = "report",
+    jobs: Jobs = CORES,
+    cases: Cases = None,
+    swarms: Swarms = None,
+    rivals: Annotated[bool, Parameter(help=f"Run these too: {', '.join(suite.RIVALS)}.")] = False,
+    apart: Annotated[float | None, Parameter(metavar="SECONDS", validator=positive)] = None,
+    codings: Codings = None,
+    seeds: Annotated[int | None, Parameter(validator=positive)] = None,
+    budget: Annotated[int | None, Parameter(validator=positive)] = None,
+    resume: bool = False,
+) -> int:
+    """Grade every swarm on every case, audit the papers, and write the report.
+
+    Every swarm runs on every case in every coding, and is graded against the optimum of the spline
+    family. The report is DIR/index.html and DIR/report.md, its rows are DIR/rows.csv.
+
+    Parameters
+    ----------
+    quick
+        2 seeds, 420 evaluations, few swarms; no proofs, no audits, no B-spline.
+    full
+        30 seeds, the papers' own budgets, more control algorithms.
+    apart
+        Run every search in a process of its own, for at most so many seconds of the swarm's work.
+    seeds
+        Number of seeds; 5 if left out.
+    budget
+        Evaluations per search, for all cases; 2550 if left out.
+    resume
+        Keep the rows that an interrupted run has finished.
+    """
+    started = time.perf_counter()
+    if quick and full:
+        raise InputError("--quick, --full: only one of them can be given")
+    size = "quick" if quick else "full" if full else "default"
+    chosen = list(cases or (suite.quick_cases() if quick else CASES))
+    wanted = list(swarms or suite.swarms_of(size))
+    if rivals:
+        from compare.commands.options import found_swarms
+
+        wanted = list(found_swarms(",".join([*wanted, *suite.RIVALS])))
+    runs = suite.runs(
+        size=size,
+        cases=chosen,
+        swarms=wanted,
+        codings=list(codings or CODINGS),
+        seeds=seeds,
+        evaluations=budget,
+        seconds=apart,
+    )
+    problems = {case: load(case) for case in chosen}
+    store = Store(output_folder(out))
+    if resume:
+        store.mend()
+    else:
+        store.clear()
+    budgets = sorted({run.budget for run in runs})
+    settings = Settings(
+        size=size,
+        cases=tuple(chosen),
+        seeds=max(run.seed for run in runs) + 1,
+        budget=" or ".join(str(budget) for budget in budgets) + " evaluations",
+    )
+    store.write_settings(settings)
+
+    warm_up(problems)
+    with workers(jobs) as pool:
+        climb(pool, problems, store, certify=not quick)
+        if not quick:
+            audits(pool, sorted({paper for case in chosen if (paper := key_of_paper(case))}), store)
+        swarm(pool, runs, problems, store)
+        tabulate_known_times(pool, problems, store)
+        if size in PROOFS and cases is None:
+            calls = proofs.calls(*PROOFS[size])
+            study.run(proofs.STUDY, calls, folder=store.folder, pool=pool, resume=resume)
+        if size in BIAS and cases is None:
+            functions, arms, repeats, evaluations = BIAS[size]
+            calls = bias.calls(functions, arms, wanted, repeats, evaluations)
+            study.run(bias.STUDY, calls, folder=store.folder, pool=pool, resume=resume)
+        page = render(pool, store.folder, problems, settings)
+    print(f"report: {page} ({len(runs)} runs, {time.perf_counter() - started:.0f} s)")
+    return DONE

@@ -1,0 +1,288 @@
+"""Options that several commands share: each is defined once, with its help and its validation.
+
+A value that cannot be used raises ValueError here; ``compare.__main__`` turns it into one line that
+names the option. Names of cases, swarms and codings are looked up when they are needed, so that this
+module loads at once.
+"""
+
+from __future__ import annotations
+
+import os
+from collections.abc import Callable, Iterable, Sequence
+from difflib import get_close_matches
+from math import isfinite
+from pathlib import Path
+from typing import Annotated, Any
+
+from cyclopts import Parameter, Token
+
+CORES = os.cpu_count() or 1
+
+
+def known(name: str, names: Iterable[str]) -> str:
+    """Look a name up.
+
+    Parameters
+    ----------
+    name : str
+        What was typed.
+    names : iterable of str
+        The names there are.
+
+    Returns
+    -------
+    str
+        The name.
+
+    Raises
+    ------
+    ValueError
+        It is none of them; the message holds the nearest one and all of them.
+    """
+    names = list(names)
+    if name in names:
+        return name
+    near = get_close_matches(name, names, 1)
+    hint = f"; did you mean {near[0]!r}?" if near else ""
+    raise ValueError(f"{name!r} is not known{hint} (known: {', '.join(names)})")
+
+
+def several(text: str, names: Iterable[str]) -> tuple[str, ...]:
+    """Read a comma-separated choice among known names.
+
+    Parameters
+    ----------
+    text : str
+        What was typed.
+    names : iterable of str
+        The names there are.
+
+    Returns
+    -------
+    tuple of str
+        The names chosen, each once, in the order typed.
+
+    Raises
+    ------
+    ValueError
+        One of them is not known, or none is given.
+    """
+    names = list(names)
+    wanted = [name.strip() for name in text.split(",") if name.strip()]
+    if not wanted:
+        raise ValueError(f"none given (known: {', '.join(names)})")
+    return tuple(dict.fromkeys(known(name, names) for name in wanted))
+
+
+def found_swarms(text: str) -> tuple[str, ...]:
+    """Read a comma-separated choice of algorithms, and load each one.
+
+    Parameters
+    ----------
+    text : str
+        Names of the registry, ``library:Name``, or ``module:function``.
+
+    Returns
+    -------
+    tuple of str
+        The names, each once, in the order typed.
+
+    Raises
+    ------
+    ValueError
+        There is none of a name, with the reason, or its library is missing.
+    """
+    from metaheuristics import (
+        ALGORITHMS,
+        NOT_REPRODUCIBLE,
+        MissingLibraryError,
+        UnknownAlgorithmError,
+        algorithm,
+    )
+
+    wanted = tuple(dict.fromkeys(name.strip() for name in text.split(",") if name.strip()))
+    if not wanted:
+        raise ValueError(f"none given (known: {', '.join(ALGORITHMS)})")
+    for name in wanted:
+        try:
+            algorithm(name)
+        except (UnknownAlgorithmError, MissingLibraryError) as error:
+            if ":" not in name and name not in NOT_REPRODUCIBLE:
+                known(name, ALGORITHMS)  # says which name is near
+            raise ValueError(str(error)) from error
+    return wanted
+
+
+def positive(kind: Any, value: float | None) -> None:
+    """Refuse a number that is not positive and finite (a validator of cyclopts).
+
+    Parameters
+    ----------
+    kind : type
+        The type of the option.
+    value : float or None
+        Its value; None if it was left out.
+
+    Raises
+    ------
+    ValueError
+        It is not positive.
+    """
+    if value is not None and not (isfinite(value) and value > 0):
+        raise ValueError(f"{value:g} is not positive" if isfinite(value) else f"{value} is not finite")
+
+
+def not_negative(kind: Any, value: int) -> None:
+    """Refuse a negative number (a validator of cyclopts).
+
+    Parameters
+    ----------
+    kind : type
+        The type of the option.
+    value : int
+        Its value.
+
+    Raises
+    ------
+    ValueError
+        It is negative.
+    """
+    if value < 0:
+        raise ValueError(f"{value} is negative")
+
+
+def writable(kind: Any, value: str | None) -> None:
+    """Refuse a file that cannot be written, before anything is computed (a validator of cyclopts).
+
+    Parameters
+    ----------
+    kind : type
+        The type of the option.
+    value : str or None
+        The file; ``-`` stands for standard output.
+
+    Raises
+    ------
+    ValueError
+        Its folder is none.
+    """
+    if value is None or value == "-":
+        return
+    if value.startswith("-"):
+        raise ValueError(f"a file is missing before {value}")
+    path = Path(value)
+    if path.is_dir() or not path.parent.is_dir():
+        reason = "it is a folder" if path.is_dir() else f"{path.parent} is no folder"
+        raise ValueError(f"{value}: cannot be written: {reason}")
+
+
+def _cases() -> Iterable[str]:
+    from formulations import CASES
+
+    return CASES
+
+
+def _codings() -> Iterable[str]:
+    from compare.benchmark.objective import CODINGS
+
+    return CODINGS
+
+
+def _choice(names: Callable[[], Iterable[str]]) -> Callable[[Any, Sequence[Token]], tuple[str, ...]]:
+    return lambda kind, tokens: several(tokens[0].value, names())
+
+
+def _joined(value: Any) -> str | None:
+    return ",".join(value) if value else None
+
+
+def listed(names: Callable[[], Iterable[str]], words: str, name: str) -> Parameter:
+    """Make the parameter of an option that is a comma-separated list of known names.
+
+    Parameters
+    ----------
+    names : Callable
+        Gives the names there are.
+    words : str
+        The help.
+    name : str
+        The option, ``--name``.
+
+    Returns
+    -------
+    Parameter
+        For an ``Annotated`` tuple of str.
+    """
+    return Parameter(
+        name=name,
+        help=words,
+        converter=_choice(names),
+        n_tokens=1,
+        metavar="NAME,..",
+        show_default=_joined,
+    )
+
+
+def _read_swarms(kind: Any, tokens: Sequence[Token]) -> tuple[str, ...]:
+    return found_swarms(tokens[0].value)
+
+
+def _read_swarm(kind: Any, tokens: Sequence[Token]) -> str:
+    return found_swarms(tokens[0].value)[0]
+
+
+_OWN = (
+    "a name of docs/swarms.md; library:Name of mealpy, pymoo, nevergrad, minion; or your own,"
+    " module:function"
+)
+
+Cases = Annotated[tuple[str, ...] | None, listed(_cases, "Shipped cases; all if left out.", "--cases")]
+Codings = Annotated[
+    tuple[str, ...] | None,
+    listed(_codings, "How a swarm's vector becomes a motion: published, shared, stretched; all if left out.",
+           "--codings"),
+]  # fmt: skip
+Swarms = Annotated[
+    tuple[str, ...] | None,
+    Parameter(name="--swarms", help=f"Algorithms, each {_OWN}.", converter=_read_swarms, n_tokens=1,
+              metavar="NAME,..", show_default=_joined),
+]  # fmt: skip
+Swarm = Annotated[
+    str, Parameter(name="--swarm", help=f"An algorithm: {_OWN}.", converter=_read_swarm, n_tokens=1)
+]
+ProblemFile = Annotated[
+    str, Parameter(name="FILE", help="A problem file (TOML), or the name of a shipped case.")
+]
+Out = Annotated[str, Parameter(name="--out", metavar="DIR", help="Folder of the report.")]
+Jobs = Annotated[
+    int,
+    Parameter(name="--jobs", validator=positive, help="Worker processes."),
+]
+Seeds = Annotated[int, Parameter(name="--seeds", validator=positive, help="Number of seeds.")]
+Seed = Annotated[
+    int, Parameter(name="--seed", validator=not_negative, help="Seed of the random numbers.")
+]
+Budget = Annotated[
+    int, Parameter(name="--budget", validator=positive, help="Evaluations of the objective per run.")
+]
+Resume = Annotated[
+    bool, Parameter(name="--resume", help="Keep what an interrupted run of the same kind has finished.")
+]
+Json = Annotated[
+    str | None,
+    Parameter(
+        name="--json", metavar="FILE", validator=writable, allow_leading_hyphen=True,
+        help="Write the answer as JSON too; - writes it to standard output, and nothing else.",
+    ),
+]  # fmt: skip
+Export = Annotated[
+    str | None,
+    Parameter(name="--export", metavar="FILE", validator=writable,
+              help="Write the fastest verified motion, as .csv or .json (a ROS JointTrajectory)."),
+]  # fmt: skip
+Rate = Annotated[
+    float | None,
+    Parameter(name="--rate", metavar="HZ", validator=positive,
+              help="Points per second in that file; where the pieces of the motion meet if left out."),
+]  # fmt: skip
+Gap = Annotated[float, Parameter(name="--gap", validator=positive, help="Relative gap to be reached.")]

@@ -1,0 +1,73 @@
+"""``timebound papers [KEY ...]``: the tables and figures of the papers, made again."""
+
+from __future__ import annotations
+
+import sys
+import time
+from typing import Annotated
+
+from cyclopts import Parameter
+
+from compare.commands import DONE, FAILED
+from compare.commands.options import CORES, Jobs, Json, Out, Resume, several
+from compare.files import output_folder
+from compare.papers import ITEMS
+from compare.papers.making import choose, draw, left_to_make, make
+from compare.screen import show
+from formulations import InputError
+
+
+def papers(
+    *papers: Annotated[
+        str,
+        Parameter(
+            name="KEY", help=f"Papers by the key of their case: {', '.join(ITEMS)}; all if none."
+        ),
+    ],
+    full: bool = False,
+    item: Annotated[str | None, Parameter(metavar="LABEL")] = None,
+    listing: Annotated[bool, Parameter(name="--list")] = False,
+    out: Out = "report",
+    jobs: Jobs = CORES,
+    resume: Resume = False,
+    json: Json = None,
+) -> int:
+    """Make the tables and figures of the papers again, printed beside reproduced.
+
+    Each item is stored in DIR/papers/KEY/ITEM.json; each paper gets a page, DIR/papers/KEY.html.
+
+    Parameters
+    ----------
+    full
+        Take the papers' own budgets, and more runs.
+    item
+        Make one item alone, as the paper calls it: "Table 9".
+    listing
+        List the items, and make none.
+    """
+    started = time.perf_counter()
+    try:
+        keys = several(",".join(papers), ITEMS) if papers else tuple(ITEMS)
+    except ValueError as error:
+        raise InputError(f"KEY: {error}") from None
+    chosen = choose(list(keys), item)
+    total = sum(len(items) for items in chosen.values())
+    if listing:
+        labels = {paper: [item.label for item in items] for paper, items in chosen.items()}
+        show("\n".join(f"{paper}: {', '.join(names)}" for paper, names in labels.items()), labels, json)
+        return DONE
+    folder = output_folder(out)
+    calls = left_to_make(folder, chosen, full=full, resume=resume)
+    before = f", {total - len(calls)} of them finished before" if total > len(calls) else ""
+    print(f"{total} tables and figures of {', '.join(chosen)}{before}", file=sys.stderr)
+    made = []
+    for paper, one, result in make(calls, jobs):
+        print(f"{paper}: {one.label}: {result.status}, {result.seconds:.1f} s", file=sys.stderr)
+        made.append({"paper": paper, "item": one.label, "status": str(result.status)})
+    failed = draw(folder, chosen, jobs)
+    for line in failed:
+        print(f"error: {line}", file=sys.stderr)
+    text = [f"chapter: {folder / 'papers' / f'{paper}.html'}" for paper in chosen]
+    text.append(f"{len(calls)} made, {len(failed)} failed, {time.perf_counter() - started:.0f} s")
+    show("\n".join(text), {"made": made, "failed": failed}, json)
+    return FAILED if failed else DONE

@@ -1,0 +1,153 @@
+"""Make items in worker processes, store each as it ends, and write the chapters."""
+
+from __future__ import annotations
+
+import multiprocessing
+from collections.abc import Iterator
+from concurrent.futures.process import BrokenProcessPool
+from pathlib import Path
+
+from compare.benchmark.run import each, workers
+from compare.papers import ITEMS, page, shelf
+from compare.papers.item import Item
+from compare.papers.shelf import Made
+from formulations import InputError
+
+Call = tuple[str, str, Item, bool]  # the arguments of shelf.make
+
+
+def choose(papers: list[str], label: str | None) -> dict[str, list[Item]]:
+    """Choose items by paper.
+
+    Parameters
+    ----------
+    papers : list of str
+        Keys of ``ITEMS``.
+    label : str or None
+        One item alone, as the paper calls it; None: all of them.
+
+    Returns
+    -------
+    dict
+        Items by paper; no paper without one.
+
+    Raises
+    ------
+    InputError
+        No item has that label.
+    """
+    found = {paper: [i for i in ITEMS[paper] if label in (None, i.label)] for paper in papers}
+    found = {paper: items for paper, items in found.items() if items}
+    if not found:
+        known = ", ".join(item.label for paper in papers for item in ITEMS[paper])
+        raise InputError(f"--item: {label!r} is not an item of {', '.join(papers)} (known: {known})")
+    return found
+
+
+def left_to_make(
+    folder: Path, chosen: dict[str, list[Item]], *, full: bool, resume: bool
+) -> list[Call]:
+    """List what has to be made, the longest first, and forget what is stored of it.
+
+    Parameters
+    ----------
+    folder : Path
+        Folder of the report.
+    chosen : dict
+        Items by paper.
+    full : bool
+        The papers' own budgets.
+    resume : bool
+        Leave out what an earlier run has finished.
+
+    Returns
+    -------
+    list of tuples
+        Arguments of ``shelf.make``.
+    """
+    calls: list[Call] = []
+    for paper, items in chosen.items():
+        for item in items:
+            if resume and shelf.finished(folder, paper, item, full):
+                continue
+            shelf.forget(folder, paper, item)
+            calls.append((str(folder), paper, item, full))
+    return sorted(calls, key=lambda call: -call[2].cost)
+
+
+def make(calls: list[Call], jobs: int) -> Iterator[tuple[str, Item, Made]]:
+    """Make items in worker processes, each stored as it ends.
+
+    An item that ends its process costs no other item.
+
+    Parameters
+    ----------
+    calls : list of tuples
+        Arguments of ``shelf.make``.
+    jobs : int
+        Worker processes.
+
+    Yields
+    ------
+    tuple
+        Paper, item, and what was made.
+    """
+    left = {(paper, item.key): (folder, paper, item, full) for folder, paper, item, full in calls}
+    if not left:
+        return
+    try:
+        with workers(min(jobs, len(left))) as pool:
+            for paper, item, made in each(pool, "papers", shelf.make, calls):
+                del left[paper, item.key]
+                yield paper, item, made
+    except BrokenProcessPool:  # one item ended the whole pool; one after the other, it shows which
+        yield from _one_by_one(list(left.values()))
+    except KeyboardInterrupt:
+        for worker in multiprocessing.active_children():
+            worker.terminate()  # what it makes may take minutes more
+        raise
+
+
+def _one_by_one(calls: list[Call]) -> Iterator[tuple[str, Item, Made]]:
+    while calls:
+        try:
+            with workers(1) as pool:
+                while calls:
+                    made = pool.submit(shelf.make, *calls[0]).result()
+                    calls = calls[1:]
+                    yield made
+        except BrokenProcessPool:
+            _, paper, item, _ = calls[0]
+            yield paper, item, shelf.died(*calls[0])
+            calls = calls[1:]
+
+
+def draw(folder: Path, chosen: dict[str, list[Item]], jobs: int) -> list[str]:
+    """Write the chapters.
+
+    Parameters
+    ----------
+    folder : Path
+        Folder of the report.
+    chosen : dict
+        Items by paper.
+    jobs : int
+        Worker processes.
+
+    Returns
+    -------
+    list of str
+        A line for each chosen item that has failed.
+    """
+    calls = [(str(folder), paper, ITEMS[paper]) for paper in chosen]
+    if min(jobs, len(calls)) == 1:  # not worth a process
+        chapters = [page.render(*call) for call in calls]
+    else:
+        with workers(min(jobs, len(calls))) as pool:
+            chapters = list(each(pool, "chapters", page.render, calls))
+    return sorted(
+        f"{paper}: {item.label}: {faults[item.label]}"
+        for paper, faults in chapters
+        for item in chosen[paper]
+        if item.label in faults
+    )
