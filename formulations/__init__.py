@@ -2,7 +2,9 @@
 
 from __future__ import annotations
 
+from formulations.climb import Ladder
 from formulations.families import FAMILIES
+from formulations.motion.motion_file import read_motion, write_motion
 from formulations.motion.trajectory import Trajectory, Verdict, check
 from formulations.optima.family.optimum import (
     FamilyOptimum,
@@ -17,13 +19,13 @@ from formulations.problem.problem import Limits, Problem
 from formulations.problem.problem_file import CASES, load, parse
 from formulations.proofs.every_motion.bound import FreeFormBound, free_form_bound
 from formulations.proofs.family import FamilyBound, family_bound
-from formulations.references import REFERENCES
-from formulations.rungs import Ladder, ladder
+from formulations.rungs import REFERENCES, RUNGS, ladder
 
 __all__ = [
     "CASES",
     "FAMILIES",
     "REFERENCES",
+    "RUNGS",
     "Conditions",
     "FamilyBound",
     "FamilyOptimum",
@@ -48,4 +50,6 @@ __all__ = [
     "load",
     "longest_segment",
     "parse",
+    "read_motion",
+    "write_motion",
 ]

@@ -13,13 +13,13 @@ Conventions, for whatever a paper leaves open:
 """
 
 from metaheuristics.by_name import algorithm
-from metaheuristics.driver.apart import apart
 from metaheuristics.driver.archive import Result
-from metaheuristics.driver.minimise import minimise
+from metaheuristics.driver.isolation import apart
+from metaheuristics.driver.judge import minimise
 from metaheuristics.driver.plug_in import UnknownAlgorithmError
 from metaheuristics.driver.task import ObjectiveError, Status, Task, TaskError
 from metaheuristics.entry import GROUPS, Algorithm, NotReproducible
-from metaheuristics.libraries.library import MissingLibraryError
+from metaheuristics.libraries.shared import MissingLibraryError
 from metaheuristics.registry import ALGORITHMS, NOT_REPRODUCIBLE
 
 __all__ = [

@@ -1,29 +1,66 @@
-"""Any algorithm by its name: published, of another library, or somebody's own."""
+"""Any algorithm by its name: of the registry, of another library, or somebody's own."""
 
 from __future__ import annotations
 
+from collections.abc import Callable
 from functools import partial
+from typing import Any, NamedTuple
 
-from metaheuristics.driver.plug_in import UnknownAlgorithmError, plug_in
-from metaheuristics.entry import Algorithm, defaults
-from metaheuristics.libraries import mealpy_, pymoo_
-from metaheuristics.libraries.library import library
-from metaheuristics.libraries.minion_ import minion
-from metaheuristics.libraries.nevergrad_ import nevergrad
+from metaheuristics.driver.plug_in import UnknownAlgorithmError, defaults, plug_in
+from metaheuristics.driver.task import Moves
+from metaheuristics.entry import Algorithm
+from metaheuristics.libraries import mealpy_, minion_, nevergrad_, pymoo_
+from metaheuristics.libraries.shared import library
 from metaheuristics.registry import ALGORITHMS, NOT_REPRODUCIBLE
 
+
+class Library(NamedTuple):
+    """A library of optimisers: its distribution, what runs one of them, what finds one or raises."""
+
+    distribution: str
+    search: Callable[..., Moves]
+    find: Callable[[str], Any]
+
+
 LIBRARIES = {
-    "mealpy": ("mealpy", mealpy_.mealpy),
-    "pymoo": ("pymoo", pymoo_.pymoo),
-    "nevergrad": ("nevergrad", nevergrad),
-    "minion": ("minionpy", minion),
+    "mealpy": Library("mealpy", mealpy_.mealpy, mealpy_.find),
+    "pymoo": Library("pymoo", pymoo_.pymoo, pymoo_.find),
+    "nevergrad": Library("nevergrad", nevergrad_.nevergrad, nevergrad_.find),
+    "minion": Library("minionpy", minion_.minion, minion_.find),
 }
 
 
 def algorithm(name: str) -> Algorithm:
-    """Return the algorithm of this name: of `ALGORITHMS`, ``library:Name``, or ``module:function``.
+    """Return the algorithm of this name.
 
-    Raises `UnknownAlgorithmError`, or `MissingLibraryError` if its library is not installed.
+    Parameters
+    ----------
+    name : str
+        A name of `ALGORITHMS`; ``library:Name`` with mealpy, pymoo, nevergrad or minion; or
+        ``module:function`` for an optimiser of your own, which is described by a process of its own and
+        not imported here.
+
+    Returns
+    -------
+    Algorithm
+        Run it by ``minimise(a.search(), f, ..., **a.parameters)``.
+
+    Raises
+    ------
+    UnknownAlgorithmError
+        Nothing goes by this name, or the plug-in cannot be loaded; the message says why.
+    MissingLibraryError
+        Its library is not installed; the message says how to install it.
+
+    Examples
+    --------
+    >>> from metaheuristics import algorithm
+    >>> algorithm("whale").parameters
+    {'population': 50, 'b': 1.0}
+    >>> algorithm("ipso")
+    Traceback (most recent call last):
+        ...
+    metaheuristics.driver.plug_in.UnknownAlgorithmError: ipso is not reproducible: ...
     """
     if name in ALGORITHMS:
         found = ALGORITHMS[name]
@@ -36,27 +73,22 @@ def algorithm(name: str) -> Algorithm:
     if not place or not attribute:
         known = f"known: {', '.join(ALGORITHMS)}; or library:Name; or module:function"
         raise UnknownAlgorithmError(f"{name!r} is not known ({known})")
-    if place not in LIBRARIES:
-        function = plug_in(name)
-        return Algorithm(name, "plugged in", name, function, defaults(function), "rivals")
-    _require(place, attribute)
-    distribution, search = LIBRARIES[place]
-    bound = partial(search, attribute)
-    title = f"{attribute} of {distribution}"
-    return Algorithm(name, title, distribution, bound, defaults(bound), "rivals", (distribution,))
+    if place in LIBRARIES:
+        return _of_library(place, attribute)
+    function, parameters = plug_in(name)
+    return Algorithm(name, "plugged in", name, function, parameters, "rivals", trusted=False)
 
 
-def _require(place: str, attribute: str) -> None:
-    """Raises `UnknownAlgorithmError` if a library has nothing of this name."""
-    there = library(LIBRARIES[place][0])
+def _of_library(place: str, attribute: str) -> Algorithm:
+    """Return an optimiser of a library; raises `UnknownAlgorithmError` if it has none of this name."""
+    distribution, search, find = LIBRARIES[place]
+    library(distribution)
     try:
-        if place == "pymoo":
-            pymoo_.find(attribute)
-        elif place == "mealpy":
-            mealpy_.find(attribute)
-        elif place == "nevergrad":
-            there.optimizers.registry[attribute]
-        elif not issubclass(getattr(there, attribute), there.MinimizerBase):
-            raise AttributeError(f"{attribute} is no minimiser")
+        find(attribute)
     except (AttributeError, KeyError, TypeError, ValueError) as error:
         raise UnknownAlgorithmError(f"{place}:{attribute} is not known: {error}") from None
+    bound = partial(search, attribute)
+    title = f"{attribute} of {distribution}"
+    return Algorithm(
+        f"{place}:{attribute}", title, distribution, bound, defaults(bound), "rivals", (distribution,)
+    )

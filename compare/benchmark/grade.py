@@ -1,26 +1,39 @@
-"""One swarm run on one problem, judged: what it claims, whether that holds, what is left of it."""
+"""Run a swarm once and judge its motion: what it claims, whether that holds, what is left of it."""
 
 from __future__ import annotations
 
 import zlib
 from dataclasses import dataclass
-from typing import Any
 
 import numpy as np
 
 from compare.benchmark.objective import CODINGS, Objective, search_box
+from compare.benchmark.provenance import machine, parameters_of, provenance_of
+from compare.benchmark.rows import (
+    BoundProof,
+    Row,
+    RowStatus,
+    RunKey,
+    durations_of,
+    relative_gap,
+)
 from formulations import FAMILIES, Problem, check, longest_segment
-from formulations.problem.arrays import Array
-from metaheuristics import Result, algorithm, apart, minimise
+from metaheuristics import Result, algorithm, minimise
 
 REACHED = 1e-3  # gap below which a swarm in the stretched coding has found its optimum
 
 
 @dataclass(frozen=True)
 class Run:
-    """What to run. budget: evaluations (of each joint, in the published coding).
+    """What to run.
 
-    seconds: time limit of the swarm's own work per search, in a process of its own; None: in this one.
+    Attributes
+    ----------
+    budget : int
+        Evaluations; of each joint in the published coding.
+    time_limit : float or None [s]
+        Limit on the swarm's own work per search. A swarm with a limit runs in a process of its own.
+        A plug-in always does, for at most `metaheuristics.entry.TIME_LIMIT` if none is given.
     """
 
     case: str
@@ -29,17 +42,27 @@ class Run:
     seed: int
     budget: int
     population: int
-    seconds: float | None = None
+    time_limit: float | None = None
 
     @property
-    def key(self) -> tuple[str, str, str, int, int, int]:
+    def key(self) -> RunKey:
         """What tells one run from another."""
-        return self.case, self.coding, self.swarm, self.seed, self.budget, self.population
+        return RunKey(self.case, self.coding, self.swarm, self.seed, self.budget, self.population)
 
 
 @dataclass(frozen=True)
 class Trace:
-    """Best fitness against evaluations of one ``minimise`` call; joint -1: all joints at once."""
+    """Best fitness [s] against evaluations of one search.
+
+    Attributes
+    ----------
+    joint : int
+        Joint that was searched alone, from 0; -1: all joints at once.
+    evaluations : list of int
+        Numbers of evaluations at which the best fitness fell, and the last.
+    best : list of float [s]
+        Best fitness after each of them.
+    """
 
     joint: int
     evaluations: list[int]
@@ -48,17 +71,32 @@ class Trace:
 
 @dataclass(frozen=True)
 class Graded:
-    """A finished run. ``row`` is flat: text, numbers, None. ``traces``: one per minimise call."""
+    """A finished run: its row, and one trace for each search."""
 
     run: Run
-    row: dict[str, Any]
+    row: Row
     traces: list[Trace]
 
 
-def grade(run: Run, problem: Problem, bound: float | None, proof: str = "local optimum") -> Graded:
+def grade(
+    run: Run, problem: Problem, bound: float | None, proof: str = BoundProof.local_optimum
+) -> Graded:
     """Run a swarm and judge its best vector by the independent check.
 
-    bound: what the gap is measured against [s], None if there is nothing; proof: what stands behind it.
+    Parameters
+    ----------
+    run : Run
+    problem : Problem
+        The problem of ``run.case``.
+    bound : float or None [s]
+        What the gap is measured against; None: the row has no gap.
+    proof : BoundProof or its text
+        What stands behind the bound.
+
+    Returns
+    -------
+    Graded
+        A misbehaving swarm is a status in its row, never an exception.
     """
     if run.coding == "published":
         joints = problem.moving_joints
@@ -68,11 +106,8 @@ def grade(run: Run, problem: Problem, bound: float | None, proof: str = "local o
         objectives = [Objective(problem, stretch=run.coding == "stretched")]
     lo, hi = search_box(problem)
     swarm = algorithm(run.swarm)
-    search = swarm.function if run.seconds is None else apart(swarm.function, seconds=run.seconds)
-    parameters = dict(swarm.parameters)
-    if "population" in parameters:
-        parameters["population"] = run.population
-
+    made_by = provenance_of(run.swarm, problem, run.population, run.time_limit)
+    search = swarm.search(made_by.time_limit)
     results = [
         minimise(
             search,
@@ -81,7 +116,7 @@ def grade(run: Run, problem: Problem, bound: float | None, proof: str = "local o
             hi,
             budget=run.budget,
             seed=_seed(run, joint),
-            **parameters,
+            **parameters_of(swarm, run.population),
         )
         for joint, objective in zip(joints, objectives, strict=True)
     ]
@@ -89,37 +124,67 @@ def grade(run: Run, problem: Problem, bound: float | None, proof: str = "local o
         Trace(joint, result.trace_evaluations.tolist(), result.trace_best.tolist())
         for joint, result in zip(joints, results, strict=True)
     ]
-    row: dict[str, Any] = {
-        "case": run.case,
-        "family": problem.family,
-        "coding": run.coding,
-        "swarm": run.swarm,
-        "library": swarm.versions,
-        "seed": run.seed,
-        "budget": run.budget,
-        "population": run.population,
-        "evaluations": sum(result.evaluations for result in results),
-        "seconds_algorithm": sum(result.seconds_algorithm for result in results),
-        "seconds_objective": sum(result.seconds_objective for result in results),
-        **_judged(run.coding, problem, objectives, results),
-        "bound": bound,
-        "proof": proof,
-    }
-    row["gap"] = _relative(row["seconds"], bound)
-    row["claimed_gap"] = _relative(row["claimed"], bound)
-    missed = row["status"] == "ok" and run.coding == "stretched" and (row["gap"] or 0.0) > REACHED
+    motion = _judged(run.coding, problem, objectives, results)
+    gap = relative_gap(motion.seconds, bound)
+    note = motion.note
+    missed = motion.status is RowStatus.ok and run.coding == "stretched" and (gap or 0.0) > REACHED
     if missed and swarm.shortfall:
-        row["note"] = swarm.shortfall
+        note = swarm.shortfall
+    row = Row(
+        case=run.case,
+        family=problem.family,
+        coding=run.coding,
+        swarm=run.swarm,
+        library=made_by.library,
+        parameters=made_by.parameters,
+        code=made_by.code,
+        seed=run.seed,
+        status=motion.status,
+        claimed=motion.claimed,
+        keeps_limits=motion.keeps_limits,
+        stretch=motion.stretch,
+        seconds=motion.seconds,
+        bound=bound,
+        proof=BoundProof(proof),
+        gap=gap,
+        claimed_gap=relative_gap(motion.claimed, bound),
+        budget=run.budget,
+        population=run.population,
+        evaluations=sum(result.evaluations for result in results),
+        durations=motion.durations,
+        worst=motion.worst,
+        note=note,
+        isolated=made_by.isolated,
+        time_limit=made_by.time_limit,
+        seconds_algorithm=float(sum(result.seconds_algorithm for result in results)),
+        seconds_objective=float(sum(result.seconds_objective for result in results)),
+        problem=made_by.problem,
+        versions=made_by.versions,
+        machine=machine(),
+    )
     return Graded(run, row, traces)
+
+
+@dataclass(frozen=True)
+class _Motion:
+    """What a run found, judged; the fields are those of `Row`."""
+
+    status: RowStatus
+    note: str
+    claimed: float | None = None
+    keeps_limits: bool | None = None
+    stretch: float | None = None
+    worst: str = ""
+    seconds: float | None = None
+    durations: tuple[float, ...] = ()
 
 
 def _judged(
     coding: str, problem: Problem, objectives: list[Objective], results: list[Result]
-) -> dict[str, Any]:
-    """Status, claimed time, stretch, verified time and durations of the motion that was found."""
-    nothing = {"claimed": None, "keeps_limits": None, "stretch": None, "worst": "", "seconds": None}
+) -> _Motion:
+    """Judge the motion that the searches found: as claimed, and once it keeps the limits."""
     faults = [r for r in results if r.status != "ok"]
-    status = faults[0].status.value if faults else "ok"
+    status = RowStatus(faults[0].status.value) if faults else RowStatus.ok
     note = faults[0].note if faults else ""
     vectors = [result.x for result in results]
     found = [
@@ -129,48 +194,38 @@ def _judged(
     ]
     if len(found) < len(vectors) or not found:
         missing = f"{len(vectors) - len(found)} of {len(vectors)} searches found nothing feasible"
-        status = status if faults else "nothing-moves"
-        return {"status": status, "note": note or missing, **nothing, "durations": ""}
+        return _Motion(status if faults else RowStatus.nothing_moves, note or missing)
 
     if coding == "published":
         rule = longest_segment(problem, found)
-        claimed, honest = rule.claimed, rule.durations
+        claimed, feasible = rule.claimed, rule.durations
     else:
-        claimed = honest = found[0]
+        claimed = feasible = found[0]
     family = FAMILIES[problem.family]
     as_claimed = check(problem, family.trajectory(problem, claimed))
-    verdict = check(problem, family.trajectory(problem, honest))
+    verdict = check(problem, family.trajectory(problem, feasible))
     if not verdict.feasible:
-        status = "breaks-position-limits" if not verdict.position_kept else "check-failed"
+        kept = verdict.position_kept
+        status = RowStatus.check_failed if kept else RowStatus.breaks_position_limits
         note = verdict.faults[0]
     worst = as_claimed.worst
-    return {
-        "status": status,
-        "note": note,
-        "claimed": as_claimed.seconds,
-        "keeps_limits": as_claimed.feasible,
-        "stretch": as_claimed.stretch,
-        "worst": "" if worst is None or as_claimed.feasible else str(worst),
-        "seconds": verdict.seconds if verdict.feasible else None,
-        "durations": " ".join(repr(float(t)) for t in honest),
-    }
+    return _Motion(
+        status=status,
+        note=note,
+        claimed=as_claimed.seconds,
+        keeps_limits=as_claimed.feasible,
+        stretch=as_claimed.stretch,
+        worst="" if worst is None or as_claimed.feasible else str(worst),
+        seconds=verdict.seconds if verdict.feasible else None,
+        durations=tuple(float(t) for t in feasible),
+    )
 
 
 def _seed(run: Run, joint: int) -> np.random.SeedSequence:
     """Random numbers of a search depend on what is run, not on when or by which worker."""
-    names = f"{run.case}/{run.coding}/{run.swarm}".encode()
+    swarm = algorithm(run.swarm).seeded_as or run.swarm
+    names = f"{run.case}/{run.coding}/{swarm}".encode()
     return np.random.SeedSequence([run.seed, zlib.crc32(names), joint + 1])
 
 
-def _relative(seconds: float | None, bound: float | None) -> float | None:
-    if seconds is None or not bound:
-        return None
-    return seconds / bound - 1.0
-
-
-def durations_of(row: dict[str, Any]) -> Array:
-    """The durations of a row's verified motion, (n_segments,) [s]; empty if it has none."""
-    return np.array([float(part) for part in str(row["durations"]).split()])
-
-
-__all__ = ["CODINGS", "Graded", "Run", "Trace", "durations_of", "grade"]
+__all__ = ["CODINGS", "REACHED", "Graded", "Run", "Trace", "durations_of", "grade"]

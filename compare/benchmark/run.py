@@ -1,16 +1,16 @@
-"""Run a comparison on all cores: ladders first, then swarms; each result on disk as it ends."""
+"""Run a comparison on all cores: bounds first, then swarms; each result is on disk as it ends."""
 
 from __future__ import annotations
 
 import hashlib
 import multiprocessing
 import os
-import platform
 import signal
+import sys
+from collections import Counter
 from collections.abc import Callable, Iterable, Iterator
-from concurrent.futures import FIRST_COMPLETED, Future, ProcessPoolExecutor, wait
+from concurrent.futures import FIRST_COMPLETED, Executor, Future, ProcessPoolExecutor, wait
 from contextlib import contextmanager
-from dataclasses import asdict
 from typing import Any, TypeVar
 
 import numpy as np
@@ -18,25 +18,39 @@ import numpy as np
 from compare.audit import audit, load_papers
 from compare.audit.paper_file import published_text
 from compare.benchmark.grade import Graded, Run, grade
-from compare.benchmark.honest import honest_table
+from compare.benchmark.known_times import KnownTime, table_of_known_times
+from compare.benchmark.ladders import LadderRecord, ladder_record
+from compare.benchmark.provenance import machine, provenance_of, versions_text
+from compare.benchmark.rejudge import judged_again
+from compare.benchmark.rows import BoundProof, Row, RunKey
 from compare.benchmark.statistics import bound_of
-from compare.benchmark.store import Store, key_of
+from compare.benchmark.store import Store
 from compare.screen import bar
 from formulations import FAMILIES, Problem, ladder
-from formulations.diagnosis import diagnose
-from formulations.rungs import versions
-from metaheuristics import algorithm
 
 T = TypeVar("T")
 _THREADS = ("OMP_NUM_THREADS", "OPENBLAS_NUM_THREADS", "MKL_NUM_THREADS")
+_BATCH = 5  # runs per call: a run takes milliseconds
+_WAITING = 64  # calls handed to the workers at a time, enough to keep all of them busy
 
 
 @contextmanager
 def workers(jobs: int) -> Iterator[ProcessPoolExecutor]:
-    """Worker processes, started afresh on every platform; an interrupt drops what waits."""
-    pool = ProcessPoolExecutor(jobs, mp_context=multiprocessing.get_context("spawn"))
-    # workers inherit that they ignore an interrupt, which is this process's to handle, and that they
-    # are the threads: linear algebra with threads of its own would only wait for the others
+    """Start worker processes, afresh on every platform; an interrupt drops the calls that wait.
+
+    Parameters
+    ----------
+    jobs : int
+        Number of processes.
+
+    Yields
+    ------
+    ProcessPoolExecutor
+    """
+    context = multiprocessing.get_context("spawn")
+    pool = ProcessPoolExecutor(jobs, mp_context=context, initializer=_forget_the_command_line)
+    # workers inherit that they ignore an interrupt, which is this process's to handle, and that each
+    # of them has one thread: linear algebra with threads of its own would only wait for the others
     before = signal.signal(signal.SIGINT, signal.SIG_IGN)
     unset = [name for name in _THREADS if name not in os.environ]
     os.environ.update(dict.fromkeys(unset, "1"))
@@ -55,18 +69,39 @@ def workers(jobs: int) -> Iterator[ProcessPoolExecutor]:
     pool.shutdown()
 
 
+def _forget_the_command_line() -> None:
+    """Drop the options: processes of plug-ins inherit them, and must not learn where the report is."""
+    del sys.argv[1:]
+
+
 def each(
-    pool: ProcessPoolExecutor,
+    pool: Executor,
     title: str,
     function: Callable[..., T],
     calls: Iterable[tuple[Any, ...]],
 ) -> Iterator[T]:
-    """Results of ``function(*call)`` as they end, under a progress bar with the time left."""
+    """Call a function in the workers, under a progress bar with the time left.
+
+    Parameters
+    ----------
+    pool : Executor
+    title : str
+        Words beside the bar.
+    function : callable
+        A function of a module, so that workers can import it.
+    calls : iterable of tuple
+        Its arguments, call by call.
+
+    Yields
+    ------
+    object
+        What the function returns, as the calls end.
+    """
     waiting = list(calls)[::-1]
     with bar(title, len(waiting)) as advance:
         running: set[Future[T]] = set()
         while waiting or running:
-            while waiting and len(running) < 64:  # enough to keep every worker busy
+            while waiting and len(running) < _WAITING:
                 running.add(pool.submit(function, *waiting.pop()))
             done, running = wait(running, return_when=FIRST_COMPLETED)
             for future in done:
@@ -74,46 +109,116 @@ def each(
                 yield future.result()
 
 
-def climb(
-    pool: ProcessPoolExecutor, problems: dict[str, Problem], store: Store, *, certify: bool = True
-) -> None:
-    """Every bound of every case, written to the store; the longest task first."""
+def climb(pool: Executor, problems: dict[str, Problem], store: Store, *, certify: bool = True) -> None:
+    """Find every bound of every case and write it to the store; the longest task first.
+
+    Parameters
+    ----------
+    pool : Executor
+    problems : dict of str to Problem
+        By case.
+    store : Store
+    certify : bool
+        Whether the bound of the spline family is proved.
+    """
     longest_first = sorted(problems.items(), key=lambda item: -item[1].n_segments)
     calls = [(case, problem, certify) for case, problem in longest_first]
     for case, found in each(pool, "bounds", _ladder, calls):
         store.write_ladder(case, found)
 
 
-def swarm(
-    pool: ProcessPoolExecutor, runs: list[Run], problems: dict[str, Problem], store: Store
-) -> None:
-    """Every run that the store does not have yet; rows in the order of the runs when all are done."""
+def _ladder(case: str, problem: Problem, certify: bool) -> tuple[str, LadderRecord]:
+    return case, ladder_record(ladder(problem, certify=certify))
+
+
+def swarm(pool: Executor, runs: list[Run], problems: dict[str, Problem], store: Store) -> None:
+    """Grade every run that the store does not have yet; the rows end in the order of the runs.
+
+    Stored rows count only if they belong to one of these runs and were made by the same code,
+    parameters, versions and problem. The others are set aside, and a line on stderr says how many and
+    why. The gaps of the rows that stay are measured against the bounds that the store has now.
+
+    Parameters
+    ----------
+    pool : Executor
+    runs : list of Run
+        The plan.
+    problems : dict of str to Problem
+        By case.
+    store : Store
+        With the bounds of all cases.
+    """
     ladders = store.ladders()
     bounds = {case: bound_of(ladders[case]) for case in problems}
-    facts = {
-        case: {"problem": digest(problem), "versions": versions_text(), "machine": machine()}
-        for case, problem in problems.items()
-    }
-    libraries = {name: algorithm(name).versions for name in {run.swarm for run in runs}}
-    finished = {
-        key_of(row)
-        for row in store.rows()
-        if row["case"] in facts
-        and all(row[name] == facts[row["case"]][name] for name in ("problem", "versions"))
-        and row["library"] == libraries.get(row["swarm"])
-    }
+    finished = _kept(runs, problems, bounds, store)
     left = [run for run in runs if run.key not in finished]
     batches = [left[i : i + _BATCH] for i in range(0, len(left), _BATCH)]
     calls = [([(run, problems[run.case], *bounds[run.case]) for run in batch],) for batch in batches]
     for graded in each(pool, f"swarms (x{_BATCH} runs)", _grades, calls):
         for one in graded:
-            store.add(one, facts[one.run.case])
+            store.add(one)
     store.sort(runs)
 
 
-def audits(pool: ProcessPoolExecutor, papers: list[str], store: Store) -> None:
-    """The audit of every paper that the store does not have yet; the longest first."""
-    facts = {
+def _grades(batch: list[tuple[Run, Problem, float | None, BoundProof]]) -> list[Graded]:
+    return [grade(*one) for one in batch]
+
+
+def _kept(
+    runs: list[Run],
+    problems: dict[str, Problem],
+    bounds: dict[str, tuple[float | None, BoundProof]],
+    store: Store,
+) -> set[RunKey]:
+    """Set aside what the plan cannot use of the stored rows; the keys of the others."""
+    rows = store.rows()
+    if not rows:
+        return set()
+    plan = {run.key: run for run in runs}
+    kept: dict[RunKey, Row] = {}
+    reasons: Counter[str] = Counter()
+    for row in rows:
+        reason = "a second row of its run" if row.key in kept else _mismatch(row, plan, problems)
+        if reason is None:
+            kept[row.key] = row.measured_against(*bounds[row.case])
+        else:
+            reasons[reason] += 1
+    store.keep(list(kept.values()))
+    if reasons:
+        told = ", ".join(f"{count} with {reason}" for reason, count in reasons.most_common())
+        print(
+            f"resume: {len(kept)} of {len(rows)} stored rows fit the plan; {reasons.total()} do not"
+            f" and are set aside in {store.set_aside_file.name} ({told})",
+            file=sys.stderr,
+            flush=True,
+        )
+    return set(kept)
+
+
+def _mismatch(row: Row, plan: dict[RunKey, Run], problems: dict[str, Problem]) -> str | None:
+    """Why a stored row is none of the plan; None if it is one of it."""
+    run = plan.get(row.key)
+    if run is None:
+        same = [key for key in plan if key[:3] == row.key[:3]]
+        if not same:
+            return "a case, coding or swarm that is not asked for"
+        sizes = {(key.budget, key.population) for key in same}
+        return "a seed that is not asked for" if row.key[4:] in sizes else "another budget"
+    problem = problems[run.case]
+    return provenance_of(run.swarm, problem, run.population, run.time_limit).difference(row)
+
+
+def audits(pool: Executor, papers: list[str], store: Store) -> None:
+    """Audit every paper whose audit the store does not have yet; the longest first.
+
+    Parameters
+    ----------
+    pool : Executor
+    papers : list of str
+        Names of shipped papers.
+    store : Store
+    """
+    made_of = {
         paper: {
             "digest": hashlib.sha256(published_text(paper).encode()).hexdigest()[:12],
             "versions": versions_text(),
@@ -125,84 +230,58 @@ def audits(pool: ProcessPoolExecutor, papers: list[str], store: Store) -> None:
     left = [
         paper
         for paper in papers
-        if any(kept.get(paper, {}).get(name) != facts[paper][name] for name in ("digest", "versions"))
+        if any(kept.get(paper, {}).get(key) != made_of[paper][key] for key in ("digest", "versions"))
     ]
-    for paper, found in each(pool, "audits", _audit, [(paper,) for paper in sorted(left, key=_work)]):
-        store.write_audit(paper, facts[paper], found)
+    calls = [(paper,) for paper in sorted(left, key=_work, reverse=True)]
+    for paper, found in each(pool, "audits", _audit, calls):
+        store.write_audit(paper, made_of[paper], found)
 
 
 def _work(paper: str) -> float:
-    """Less for what takes longer: proofs, whose boxes double with every segment."""
-    return -sum(len(p.rows) * 2.0**p.n_waypoints for p in load_papers(paper))
+    """How long an audit takes, in no unit: its proofs, whose boxes double with every segment."""
+    return sum(len(p.rows) * 2.0**p.n_waypoints for p in load_papers(paper))
 
 
 def _audit(name: str) -> tuple[str, list[dict[str, Any]]]:
     return name, [audit(paper).to_json() for paper in load_papers(name)]
 
 
-def honest(pool: ProcessPoolExecutor, problems: dict[str, Problem], store: Store) -> None:
-    """What each case's paper should have found, from the ladders and rows of the store."""
-    rows, ladders = store.rows(), store.ladders()
+def tabulate_known_times(pool: Executor, problems: dict[str, Problem], store: Store) -> None:
+    """Write what is known of the task of each case, from the bounds and rows of the store.
+
+    Parameters
+    ----------
+    pool : Executor
+    problems : dict of str to Problem
+        By case.
+    store : Store
+    """
+    ladders = store.ladders()
+    rows = judged_again(store.rows(), problems, ladders)
     calls = [
-        (case, problem, ladders[case], [row for row in rows if row["case"] == case])
+        (case, problem, ladders[case], [row for row in rows if row.case == case])
         for case, problem in problems.items()
     ]
-    for case, lines in each(pool, "honest tables", _honest, calls):
-        store.write_honest(case, lines)
+    for case, lines in each(pool, "known times", _known_times, calls):
+        store.write_known_times(case, lines)
 
 
-def _honest(
-    case: str, problem: Problem, ladder: dict[str, Any], rows: list[dict[str, Any]]
-) -> tuple[str, list[dict[str, Any]]]:
-    return case, [asdict(line) for line in honest_table(problem, ladder, rows)]
-
-
-_BATCH = 5  # runs per call: a run takes milliseconds
-
-
-def _ladder(case: str, problem: Problem, certify: bool) -> tuple[str, dict[str, Any]]:
-    climbed = ladder(problem, certify=certify)
-    found = climbed.to_json()
-    found["alone"] = [None if one is None else one.seconds for one in climbed.alone]
-    found["title"], found["family"] = problem.title, problem.family
-    if climbed.free_form is not None:
-        found["held_up_by"] = diagnose(problem, climbed.free_form).lines()
-    return case, found
-
-
-def _grades(batch: list[tuple[Run, Problem, float | None, str]]) -> list[Graded]:
-    return [grade(*one) for one in batch]
-
-
-def digest(problem: Problem) -> str:
-    """Short hash of what defines a problem: waypoints, limits, family."""
-    limits = problem.limits
-    parts = (problem.waypoints, limits.derivatives, limits.position)
-    data = b"".join(np.ascontiguousarray(part).tobytes() for part in parts)
-    return hashlib.sha256(data + problem.family.encode()).hexdigest()[:12]
-
-
-def versions_text() -> str:
-    """Versions of what made the numbers, on one line."""
-    return " ".join(f"{name}={version}" for name, version in versions().items())
-
-
-def machine() -> str:
-    """Processor, cores and system, on one line."""
-    model = platform.processor() or platform.machine()
-    try:
-        with open("/proc/cpuinfo", encoding="utf-8") as lines:
-            names = [line.split(":", 1)[1].strip() for line in lines if line.startswith("model name")]
-        model = names[0] if names else model
-    except OSError:
-        pass  # not Linux: the general name will do
-    return f"{model}, {os.cpu_count()} cores, {platform.system()}"
+def _known_times(
+    case: str, problem: Problem, ladder: LadderRecord, rows: list[Row]
+) -> tuple[str, list[KnownTime]]:
+    return case, table_of_known_times(problem, ladder, rows)
 
 
 def warm_up(problems: dict[str, Problem]) -> None:
-    """Compile the kernels once here, so that the workers find them in the cache."""
+    """Compile the kernels once in this process, so that the workers find them in the cache.
+
+    Parameters
+    ----------
+    problems : dict of str to Problem
+        By case.
+    """
     for problem in problems.values():
         family = FAMILIES[problem.family]
-        ones = np.ones((2, problem.n_segments))  # a single one is not compiled
+        ones = np.ones((2, problem.n_segments))  # a single candidate is not compiled
         family.stretch(problem, ones)
         family.position_excess(problem, ones)

@@ -1,24 +1,37 @@
-"""Rows -> what they say per case, coding and swarm. Medians over seeds; nothing is left out."""
+"""What rows say per case, coding and swarm. Statistics are over seeds, and every seed is counted."""
 
 from __future__ import annotations
 
-from collections.abc import Iterable
+from collections.abc import Iterable, Sequence
 from dataclasses import dataclass
-from typing import Any
 
 import numpy as np
 
 from compare.benchmark.grade import Trace
+from compare.benchmark.ladders import LadderRecord
+from compare.benchmark.rows import BoundProof, Row
 from formulations.problem.arrays import Array
+
+# a certified bound of the family is used where it lies within this factor of the optimum
+_TIGHT = 1.0 + 1e-3
 
 
 @dataclass(frozen=True)
 class Summary:
     """All seeds of one swarm in one coding on one case.
 
-    gap: verified time over the family's optimum, minus 1, median over the seeds that ended in a
-    verified motion. breaking: seeds whose motion, as claimed, breaks the limits; stretch: the worst
-    factor those need. unsolved: seeds without a verified motion.
+    Attributes
+    ----------
+    seeds : int
+        Number of runs.
+    unsolved : int
+        Runs without a verified motion.
+    breaking : int
+        Runs whose motion, as claimed, breaks its limits; ``stretch`` is the worst factor these need.
+    gap : float or None
+        Median gap of the verified motions to the family's optimum; ``least`` and ``most`` of them.
+    claimed_gap : float or None
+        Median gap of the claimed motions.
     """
 
     case: str
@@ -34,82 +47,198 @@ class Summary:
     stretch: float | None
 
 
-def summaries(rows: Iterable[dict[str, Any]]) -> dict[tuple[str, str, str], Summary]:
-    """Summaries by (case, coding, swarm), in the order of the rows."""
-    groups: dict[tuple[str, str, str], list[dict[str, Any]]] = {}
+def summaries(rows: Iterable[Row]) -> dict[tuple[str, str, str], Summary]:
+    """Summarise rows by case, coding and swarm.
+
+    Parameters
+    ----------
+    rows : iterable of Row
+
+    Returns
+    -------
+    dict of (case, coding, swarm) to Summary
+        In the order in which the rows name them first.
+    """
+    groups: dict[tuple[str, str, str], list[Row]] = {}
     for row in rows:
-        groups.setdefault((row["case"], row["coding"], row["swarm"]), []).append(row)
+        groups.setdefault((row.case, row.coding, row.swarm), []).append(row)
     return {key: _summary(key, group) for key, group in groups.items()}
 
 
-def _summary(key: tuple[str, str, str], group: list[dict[str, Any]]) -> Summary:
-    gaps = [row["gap"] for row in group if row["gap"] is not None]
-    claims = [row["claimed_gap"] for row in group if row["claimed_gap"] is not None]
-    breaking = [row for row in group if row["keeps_limits"] is False]
+def _summary(key: tuple[str, str, str], group: list[Row]) -> Summary:
+    gaps = gaps_of(group)
+    breaking = [row for row in group if row.keeps_limits is False]
     return Summary(
         *key,
         seeds=len(group),
-        unsolved=sum(row["seconds"] is None for row in group),
+        unsolved=sum(row.seconds is None for row in group),
         breaking=len(breaking),
-        gap=float(np.median(gaps)) if gaps else None,
+        gap=median(gaps),
         least=min(gaps, default=None),
         most=max(gaps, default=None),
-        claimed_gap=float(np.median(claims)) if claims else None,
-        stretch=max((row["stretch"] for row in breaking), default=None),
+        claimed_gap=median([row.claimed_gap for row in group if row.claimed_gap is not None]),
+        stretch=max((row.stretch for row in breaking if row.stretch is not None), default=None),
     )
 
 
-def convergence(
-    runs: list[list[Trace]], optima: dict[int, float], budget: int, points: int = 60
-) -> tuple[Array, Array]:
-    """Gap against evaluations: grid (m,), and quartiles over the runs (3, m): 25, 50, 75 %.
+def median(values: Sequence[float]) -> float | None:
+    """Return the median, the mean of the middle two of an even number; None of no values.
 
-    optima: reference time [s] by joint (-1: all joints at once). With several joints a run's gap is
-    the mean over its joints, each against its own optimum. Infinite until something is feasible.
+    Parameters
+    ----------
+    values : sequence of float
+    """
+    return float(np.median(values)) if len(values) else None
+
+
+def lower_median(values: Iterable[float]) -> float | None:
+    """Return the median, the lower of the middle two of an even number: one of the values.
+
+    Parameters
+    ----------
+    values : iterable of float
+
+    Returns
+    -------
+    float or None
+        None of no values.
+    """
+    ordered = sorted(values)
+    return ordered[(len(ordered) - 1) // 2] if ordered else None
+
+
+def gaps_of(rows: Iterable[Row]) -> list[float]:
+    """Return the gaps of the rows that have one.
+
+    Parameters
+    ----------
+    rows : iterable of Row
+    """
+    return [row.gap for row in rows if row.gap is not None]
+
+
+def times_of(rows: Iterable[Row]) -> list[float]:
+    """Return the times of the rows that have a verified motion [s].
+
+    Parameters
+    ----------
+    rows : iterable of Row
+    """
+    return [row.seconds for row in rows if row.seconds is not None]
+
+
+def convergence(
+    runs: Sequence[Sequence[Trace]], optima: dict[int, float], budget: int, points: int = 60
+) -> tuple[Array, Array]:
+    """Return quartiles over runs of the gap of the best so far, against evaluations.
+
+    Parameters
+    ----------
+    runs : sequence of traces
+        The traces of each run. With several joints the gap of a run is the mean over its joints, each
+        against its own optimum.
+    optima : dict of int to float [s]
+        Reference time by joint; -1: all joints at once.
+    budget : int
+        Evaluations up to which the curves go.
+    points : int
+        Most points of a curve.
+
+    Returns
+    -------
+    grid : Array, shape (m,)
+        Numbers of evaluations.
+    quartiles : Array, shape (3, m)
+        25, 50 and 75 %; infinite while too few runs have found a feasible point.
     """
     grid = np.unique(np.geomspace(1, budget, points).round())
     gaps = []
     for traces in runs:
         each = [best_after(trace, grid) / optima[trace.joint] - 1.0 for trace in traces]
         gaps.append(np.mean(each, axis=0))
-    # the median of runs is infinite while fewer than half of them have found a feasible point
     quartiles = np.quantile(np.array(gaps), [0.25, 0.5, 0.75], axis=0, method="nearest")
     return grid, quartiles
 
 
 def best_after(trace: Trace, grid: Array) -> Array:
-    """Best fitness after each number of evaluations (m,): (m,); infinite before the first entry."""
+    """Return the best fitness after given numbers of evaluations.
+
+    Parameters
+    ----------
+    trace : Trace
+    grid : Array, shape (m,)
+
+    Returns
+    -------
+    Array, shape (m,) [s]
+        Infinite before the first entry of the trace.
+    """
     index = np.searchsorted(trace.evaluations, grid, side="right") - 1
     best = np.array(trace.best)
     return np.where(index >= 0, best[np.maximum(index, 0)], np.inf)
 
 
-def bound_of(ladder: dict[str, Any]) -> tuple[float | None, str]:
-    """What gaps are measured against [s], and its proof: "certified", "local optimum" or "none"."""
+def bound_of(ladder: LadderRecord) -> tuple[float | None, BoundProof]:
+    """Return the time that gaps of a case are measured against, and what stands behind it.
+
+    Parameters
+    ----------
+    ladder : LadderRecord
+
+    Returns
+    -------
+    seconds : float or None [s]
+        The certified bound of the family where it is tight, else the best optimum known.
+    proof : BoundProof
+    """
     rungs = ladder["ladder"]
-    lower, optimum = rungs["family_lower"], rungs["family"]
-    # a certified bound that is not tight says more of the proof than of a swarm
-    if lower["seconds"] and optimum["seconds"] and optimum["seconds"] <= lower["seconds"] * _TIGHT:
-        return lower["seconds"], "certified"
-    if optimum["seconds"] is not None:
-        return optimum["seconds"], "local optimum"
-    return None, "none"
+    lower, optimum = rungs["family_lower"]["seconds"], rungs["family"]["seconds"]
+    # the gap to a loose bound would say more of the proof than of a swarm
+    if lower and optimum and optimum <= lower * _TIGHT:
+        return lower, BoundProof.certified
+    if optimum is not None:
+        return optimum, BoundProof.local_optimum
+    return None, BoundProof.none
 
 
-_TIGHT = 1.0 + 1e-3
+def best_row(rows: Iterable[Row], *, coding: str | None = None) -> Row | None:
+    """Return the row with the shortest verified motion.
+
+    Parameters
+    ----------
+    rows : iterable of Row
+    coding : str, optional
+        Among the rows of this coding.
+
+    Returns
+    -------
+    Row or None
+        None if no row has a verified motion.
+    """
+    found: Row | None = None
+    for row in rows:
+        if row.seconds is None or coding not in (None, row.coding):
+            continue
+        if found is None or found.seconds is None or row.seconds < found.seconds:
+            found = row
+    return found
 
 
-def best_row(rows: Iterable[dict[str, Any]], **which: Any) -> dict[str, Any] | None:
-    """The shortest verified row among those whose columns equal ``which``; None if there is none."""
-    fitting = [
-        row
-        for row in rows
-        if row["seconds"] is not None and all(row[name] == value for name, value in which.items())
+def best_claim(rows: Iterable[Row]) -> Row | None:
+    """Return the row with the shortest time claimed in the papers' coding: what a paper would print.
+
+    Parameters
+    ----------
+    rows : iterable of Row
+
+    Returns
+    -------
+    Row or None
+        None if no such row has a motion that keeps its limits once it is slowed down.
+    """
+    claims = [
+        (row.claimed, index, row)
+        for index, row in enumerate(rows)
+        if row.coding == "published" and row.seconds is not None and row.claimed is not None
     ]
-    return min(fitting, key=lambda row: row["seconds"], default=None)
-
-
-def best_claim(rows: Iterable[dict[str, Any]]) -> dict[str, Any] | None:
-    """The shortest time claimed in the papers' coding: what a paper would print; None if none."""
-    claims = [r for r in rows if r["coding"] == "published" and r["seconds"] is not None]
-    return min(claims, key=lambda row: row["claimed"], default=None)
+    return min(claims, key=lambda claim: claim[:2])[2] if claims else None

@@ -1,125 +1,128 @@
-"""Results on disk: a row and its traces are written as each run ends, and read back from there.
+"""The results of one comparison on disk: written as each run ends, read back by whoever needs them.
 
-rows.csv     one line per run; lines are appended whole, so a killed run leaves a readable file
-traces.jsonl one line per run: best fitness against evaluations
-ladders/     one JSON per case
-honest/      one JSON per case: what its paper should have found
+rows.csv               one line per run; lines are appended whole, so a killed run leaves whole rows
+traces.jsonl           one line per run: best fitness against evaluations
+rows-set-aside.csv     rows that ``--resume`` could not use
+ladders/CASE.json      every bound of a case
+known_times/CASE.json  what a case's paper printed, beside all that is known of its task
 papers/KEY/audit.json  the audit of a paper and of its variants
-settings.json  what was asked for
+settings.json          what was asked for
 """
 
 from __future__ import annotations
 
-import csv
-import io
 import json
 import os
-from dataclasses import asdict
+from collections.abc import Collection, Mapping
+from dataclasses import asdict, dataclass
 from pathlib import Path
 from typing import Any
 
 from compare.benchmark.grade import Graded, Run, Trace
-from compare.commands import shared as commands
+from compare.benchmark.known_times import KnownTime
+from compare.benchmark.ladders import LadderRecord, checked_ladder_record
+from compare.benchmark.rows import Row, RunKey, csv_text, read_csv
+from compare.files import write_json, write_text
 from formulations import InputError
 
-COLUMNS: dict[str, type] = {
-    "case": str,
-    "family": str,
-    "coding": str,
-    "swarm": str,
-    "library": str,
-    "seed": int,
-    "status": str,
-    "claimed": float,
-    "keeps_limits": bool,
-    "stretch": float,
-    "seconds": float,
-    "bound": float,
-    "proof": str,
-    "gap": float,
-    "claimed_gap": float,
-    "budget": int,
-    "population": int,
-    "evaluations": int,
-    "durations": str,
-    "worst": str,
-    "note": str,
-    "seconds_algorithm": float,
-    "seconds_objective": float,
-    "problem": str,
-    "versions": str,
-    "machine": str,
-}
-TIMES = ("seconds_algorithm", "seconds_objective")  # the columns that no seed repeats
+
+@dataclass(frozen=True, slots=True)
+class Settings:
+    """What was asked for: size (default, quick or full), cases, number of seeds, budget in words."""
+
+    size: str
+    cases: tuple[str, ...]
+    seeds: int
+    budget: str
+
+    @staticmethod
+    def from_json(data: Any) -> Settings:
+        """Parse plain data. Raises ValueError if an entry is missing or of another type."""
+        if not isinstance(data, dict):
+            raise ValueError("not a table")
+        cases = data.get("cases")
+        found = (data.get("size"), data.get("seeds"), data.get("budget"))
+        if [type(value) for value in found] != [str, int, str] or not isinstance(cases, list):
+            raise ValueError("unexpected entries")
+        return Settings(data["size"], tuple(str(case) for case in cases), data["seeds"], data["budget"])
 
 
 class Store:
-    """The results of one comparison in one folder."""
+    """The results of one comparison in one folder.
+
+    Parameters
+    ----------
+    folder : Path
+    """
 
     def __init__(self, folder: Path) -> None:
         self.folder = folder
         self.rows_file = folder / "rows.csv"
         self.traces_file = folder / "traces.jsonl"
+        self.set_aside_file = folder / "rows-set-aside.csv"
 
     def clear(self) -> None:
-        """Start afresh: a header and nothing else."""
-        commands.write_text(self.rows_file, _line(list(COLUMNS)))
-        commands.write_text(self.traces_file, "")
-        for pattern in ("ladders/*.json", "honest/*.json", "papers/*/audit.json"):
+        """Start afresh: a table without rows, and nothing of an earlier comparison."""
+        self._replace([], {})
+        self.set_aside_file.unlink(missing_ok=True)
+        for pattern in ("ladders/*.json", "known_times/*.json", "papers/*/audit.json"):
             for old in self.folder.glob(pattern):
                 old.unlink()
 
     def mend(self) -> None:
-        """Keep what was finished: whole lines, rewritten."""
-        rows, traces = self.rows(), self.traces()
-        commands.write_text(self.rows_file, _line(list(COLUMNS)))
-        commands.write_text(self.traces_file, "")
-        for row in rows:
-            _append(self.rows_file, _line([_text(row[column]) for column in COLUMNS]))
-        for run_key, found in traces.items():
-            _append(self.traces_file, _trace_line(run_key, found))
+        """Drop a last line that was cut short. Each file is replaced whole, in one step."""
+        self._replace(self.rows(), self.traces())
 
-    def add(self, graded: Graded, facts: dict[str, str]) -> None:
-        """Write one finished run; its traces first, so that every row has them."""
+    def keep(self, rows: Collection[Row]) -> None:
+        """Keep these rows and their traces alone; the others go to ``rows-set-aside.csv``.
+
+        Parameters
+        ----------
+        rows : collection of Row
+            Some of the stored rows; their gaps may have been measured again.
+        """
+        kept = {row.key for row in rows}
+        others, seen = [], set()
+        for row in self.rows():
+            if row.key not in kept or row.key in seen:
+                others.append(row)
+            seen.add(row.key)
+        if others:  # first, so that an interrupt loses none
+            aside = [row for row in self.set_aside() if row not in others]
+            write_text(self.set_aside_file, csv_text([*aside, *others]))
+        self._replace(rows, {key: found for key, found in self.traces().items() if key in kept})
+
+    def add(self, graded: Graded) -> None:
+        """Append one finished run; its traces first, so that every row has them.
+
+        Parameters
+        ----------
+        graded : Graded
+        """
         _append(self.traces_file, _trace_line(graded.run.key, graded.traces))
-        row = {**graded.row, **facts}
-        _append(self.rows_file, _line([_text(row[column]) for column in COLUMNS]))
+        _append(self.rows_file, csv_text([graded.row], header=False))
 
     def sort(self, order: list[Run]) -> None:
-        """Rewrite the rows in the order of the runs, whatever order they ended in."""
+        """Write the rows again in the order of the runs, whatever order they ended in.
+
+        Parameters
+        ----------
+        order : list of Run
+        """
         place = {run.key: i for i, run in enumerate(order)}
-        rows = sorted(self.rows(), key=lambda row: place.get(key_of(row), len(place)))
-        lines = [_line([_text(row[column]) for column in COLUMNS]) for row in rows]
-        commands.write_text(self.rows_file, _line(list(COLUMNS)) + "".join(lines))
+        rows = sorted(self.rows(), key=lambda row: place.get(row.key, len(place)))
+        write_text(self.rows_file, csv_text(rows))
 
-    def rows(self) -> list[dict[str, Any]]:
-        """Every whole row that was written; a last line cut short is passed over."""
-        try:
-            text = self.rows_file.read_text("utf-8")
-        except FileNotFoundError:
-            return []
-        whole = text[: text.rfind("\n") + 1]
-        reader = csv.reader(io.StringIO(whole))
-        header = next(reader, None)
-        if header != list(COLUMNS):
-            raise InputError(f"{self.rows_file}: not a table of this version of timebound")
-        found = []
-        for number, line in enumerate(reader, start=2):
-            if len(line) != len(COLUMNS):
-                raise InputError(f"{self.rows_file}: line {number} has {len(line)} columns")
-            try:
-                found.append(
-                    {
-                        name: _value(kind, cell)
-                        for (name, kind), cell in zip(COLUMNS.items(), line, strict=True)
-                    }
-                )
-            except ValueError as error:
-                raise InputError(f"{self.rows_file}: line {number}: {error}") from None
-        return found
+    def rows(self) -> list[Row]:
+        """Every whole row as it stands in the file; a last line that was cut short is left out."""
+        return read_csv(self.rows_file)
 
-    def traces(self) -> dict[tuple[Any, ...], list[Trace]]:
-        """Traces by run key."""
+    def set_aside(self) -> list[Row]:
+        """Rows that an earlier ``--resume`` could not use."""
+        return read_csv(self.set_aside_file)
+
+    def traces(self) -> dict[RunKey, list[Trace]]:
+        """Traces by run; a last line that was cut short is left out."""
         try:
             text = self.traces_file.read_text("utf-8")
         except FileNotFoundError:
@@ -128,7 +131,7 @@ class Store:
         for line in text[: text.rfind("\n") + 1].splitlines():
             try:
                 entry = json.loads(line)
-                found[tuple(entry["run"])] = [
+                found[RunKey(*entry["run"])] = [
                     Trace(t["joint"], t["evaluations"], [_infinite(b) for b in t["best"]])
                     for t in entry["traces"]
                 ]
@@ -136,56 +139,85 @@ class Store:
                 raise InputError(f"{self.traces_file}: not a trace: {error}") from None
         return found
 
-    def write_settings(self, settings: dict[str, Any]) -> None:
-        """Keep what was asked for."""
-        commands.write_json(self.folder / "settings.json", settings)
+    def write_settings(self, settings: Settings) -> None:
+        """Keep what was asked for.
 
-    def settings(self) -> dict[str, Any]:
+        Parameters
+        ----------
+        settings : Settings
+        """
+        write_json(self.folder / "settings.json", asdict(settings))
+
+    def settings(self) -> Settings:
         """What was asked for. Raises InputError if the folder holds no comparison."""
         try:
-            found = json.loads((self.folder / "settings.json").read_text("utf-8"))
-            known = {"size": str, "cases": list, "seeds": int, "budget": str}
-            if {name: type(found[name]) for name in known} != known:
-                raise ValueError("unexpected entries")
-        except (OSError, ValueError, KeyError, TypeError) as error:
+            return Settings.from_json(json.loads((self.folder / "settings.json").read_text("utf-8")))
+        except (OSError, ValueError) as error:
             raise InputError(f"{self.folder}: holds no comparison: {error}") from None
-        return dict(found)
 
-    def write_ladder(self, case: str, ladder: dict[str, Any]) -> None:
-        """Keep the ladder of a case."""
+    def write_ladder(self, case: str, ladder: LadderRecord) -> None:
+        """Keep the bounds of a case.
+
+        Parameters
+        ----------
+        case : str
+        ladder : LadderRecord
+        """
         self._write(f"ladders/{case}.json", ladder)
 
-    def ladders(self) -> dict[str, dict[str, Any]]:
-        """Ladders by case name, in alphabetical order."""
-        return {path.stem: _read(path) for path in sorted(self.folder.glob("ladders/*.json"))}
+    def ladders(self) -> dict[str, LadderRecord]:
+        """Bounds by case, in alphabetical order."""
+        paths = sorted(self.folder.glob("ladders/*.json"))
+        return {path.stem: checked_ladder_record(_read(path), path) for path in paths}
 
-    def write_honest(self, case: str, lines: list[dict[str, Any]]) -> None:
-        """Keep the honest table of a case."""
-        self._write(f"honest/{case}.json", lines)
+    def write_known_times(self, case: str, lines: list[KnownTime]) -> None:
+        """Keep what is known of the task of a case.
 
-    def honest(self) -> dict[str, list[dict[str, Any]]]:
-        """Lines of the honest tables by case name."""
-        return {path.stem: _read(path) for path in sorted(self.folder.glob("honest/*.json"))}
+        Parameters
+        ----------
+        case : str
+        lines : list of KnownTime
+        """
+        self._write(f"known_times/{case}.json", [asdict(line) for line in lines])
 
-    def write_audit(self, paper: str, facts: dict[str, str], audits: list[dict[str, Any]]) -> None:
-        """Keep the audits of a paper and its variants. facts: what they were made of and by."""
-        self._write(f"papers/{paper}/audit.json", {**facts, "audits": audits})
+    def known_times(self) -> dict[str, list[KnownTime]]:
+        """What is known of the task of each case."""
+        found = {}
+        for path in sorted(self.folder.glob("known_times/*.json")):
+            try:
+                found[path.stem] = [KnownTime(**line) for line in _read(path)]
+            except TypeError as error:
+                raise InputError(f"{path}: not a table of known times: {error}") from None
+        return found
+
+    def write_audit(self, paper: str, made_of: Mapping[str, str], audits: list[dict[str, Any]]) -> None:
+        """Keep the audits of a paper and its variants.
+
+        Parameters
+        ----------
+        paper : str
+        made_of : mapping of str to str
+            Digest of the paper's text, versions and machine.
+        audits : list of dict
+            As `compare.audit.Audit.to_json` gives them.
+        """
+        self._write(f"papers/{paper}/audit.json", {**made_of, "audits": audits})
 
     def audits(self) -> dict[str, dict[str, Any]]:
-        """By paper: facts and ``audits``, a list."""
-        return {
-            path.parent.name: _read(path) for path in sorted(self.folder.glob("papers/*/audit.json"))
-        }
+        """By paper: what its audit was made of, and ``audits``, a list."""
+        paths = sorted(self.folder.glob("papers/*/audit.json"))
+        return {path.parent.name: _read(path) for path in paths}
+
+    def _replace(self, rows: Collection[Row], traces: Mapping[RunKey, list[Trace]]) -> None:
+        """Write both files anew, each whole or not at all."""
+        lines = [_trace_line(key, found) for key, found in traces.items()]
+        write_text(self.rows_file, csv_text(rows))
+        write_text(self.traces_file, "".join(lines))
 
     def _write(self, name: str, data: Any) -> None:
         path = self.folder / name
         path.parent.mkdir(parents=True, exist_ok=True)
-        commands.write_json(path, data)
-
-
-def key_of(row: dict[str, Any]) -> tuple[Any, ...]:
-    """The run key of a row."""
-    return tuple(row[name] for name in ("case", "coding", "swarm", "seed", "budget", "population"))
+        write_json(path, data)
 
 
 def _read(path: Path) -> Any:
@@ -210,10 +242,11 @@ def _append(path: Path, line: str) -> None:
         raise InputError(f"{path}: cannot be written: {error.strerror or error}") from None
 
 
-def _trace_line(key: tuple[Any, ...], traces: list[Trace]) -> str:
+def _trace_line(key: RunKey, traces: list[Trace]) -> str:
     plain = []
     for trace in traces:
         entry = asdict(trace)
+        # JSON has no infinity: nothing feasible so far
         entry["best"] = [b if b < float("inf") else None for b in trace.best]
         plain.append(entry)
     return json.dumps({"run": list(key), "traces": plain}, allow_nan=False) + "\n"
@@ -221,29 +254,3 @@ def _trace_line(key: tuple[Any, ...], traces: list[Trace]) -> str:
 
 def _infinite(value: float | None) -> float:
     return float("inf") if value is None else float(value)
-
-
-def _line(cells: list[str]) -> str:
-    buffer = io.StringIO()
-    csv.writer(buffer, lineterminator="\n").writerow(cells)
-    return buffer.getvalue()
-
-
-def _text(value: Any) -> str:
-    if value is None:
-        return ""
-    if isinstance(value, bool):
-        return "yes" if value else "no"
-    return repr(value) if isinstance(value, float) else str(value).replace("\n", " ")
-
-
-def _value(kind: type, cell: str) -> Any:
-    if kind is str:
-        return cell
-    if cell == "":
-        return None
-    if kind is bool:
-        if cell not in ("yes", "no"):
-            raise ValueError(f"{cell!r} is neither yes nor no")
-        return cell == "yes"
-    return kind(cell)

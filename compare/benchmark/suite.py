@@ -39,7 +39,7 @@ SEEDS = {"default": 5, "quick": 2, "full": 30}
 
 # what runs unless it is named: all of the papers and a few controls; whole rival libraries on demand
 QUICK_SWARMS = [
-    "pso", "mipso", "mpso", "pso-004", "sparrow", "issa", "whale", "whale-003", "random", "de",
+    "pso", "mipso", "mpso", "pso-zhang-2025", "sparrow", "issa", "whale", "whale-lu-2024", "random", "de",
 ]  # fmt: skip
 DEFAULT_CONTROLS = ["random", "de", "cma-es"]
 FULL_CONTROLS = ["random", "sobol", "de", "cma-es", "annealing", "nelder-mead", "slsqp"]

@@ -8,10 +8,10 @@ from typing import Annotated
 from cyclopts import Parameter
 
 from compare.benchmark import suite
-from compare.benchmark.honest import key_of_paper
+from compare.benchmark.known_times import key_of_paper
 from compare.benchmark.objective import CODINGS
-from compare.benchmark.run import audits, climb, honest, swarm, warm_up, workers
-from compare.benchmark.store import Store
+from compare.benchmark.run import audits, climb, swarm, tabulate_known_times, warm_up, workers
+from compare.benchmark.store import Settings, Store
 from compare.commands import DONE
 from compare.commands.options import CORES, Cases, Codings, Jobs, Out, Swarms, positive
 from compare.files import output_folder
@@ -89,12 +89,12 @@ def compare_all(
     else:
         store.clear()
     budgets = sorted({run.budget for run in runs})
-    settings = {
-        "size": size,
-        "cases": chosen,
-        "seeds": max(run.seed for run in runs) + 1,
-        "budget": " or ".join(str(budget) for budget in budgets) + " evaluations",
-    }
+    settings = Settings(
+        size=size,
+        cases=tuple(chosen),
+        seeds=max(run.seed for run in runs) + 1,
+        budget=" or ".join(str(budget) for budget in budgets) + " evaluations",
+    )
     store.write_settings(settings)
 
     warm_up(problems)
@@ -103,7 +103,7 @@ def compare_all(
         if not quick:
             audits(pool, sorted({paper for case in chosen if (paper := key_of_paper(case))}), store)
         swarm(pool, runs, problems, store)
-        honest(pool, problems, store)
+        tabulate_known_times(pool, problems, store)
         if size in PROOFS and cases is None:
             calls = proofs.calls(*PROOFS[size])
             study.run(proofs.STUDY, calls, folder=store.folder, pool=pool, resume=resume)

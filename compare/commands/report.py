@@ -25,7 +25,7 @@ def report(folder: Annotated[str, Parameter(name="DIR")], /, *, jobs: Jobs = 2) 
     """
     store = Store(Path(folder))
     settings = store.settings()
-    problems = {case: load(case) for case in settings["cases"]}
+    problems = {case: load(case) for case in settings.cases}
     with workers(jobs) as pool:
         page = render(pool, store.folder, problems, settings)
     print(f"report: {page}")

@@ -11,11 +11,10 @@ from cyclopts import Parameter
 from compare.commands import BAD_INPUT, DONE, FAILED
 from compare.commands.options import Export, Gap, Json, ProblemFile, Rate, Seed, writable
 from compare.screen import show, stages, table
-from formulations import InputError, Ladder, ladder, load
+from formulations import RUNGS, InputError, Ladder, ladder, load
 from formulations.diagnosis import diagnose
 from formulations.motion.motion_file import write_motion
 from formulations.proofs.certificate import write_certificate
-from formulations.rungs import MEANINGS
 
 _LINES = 8  # of what limits the fastest motion
 _PROOF = {"lower": "proved", "upper": "verified", "reference": "discretised"}
@@ -111,7 +110,7 @@ def as_text(answer: Ladder) -> str:
             "-" if rung.seconds is None else f"{rung.seconds:.6f} s",
             _PROOF[rung.kind] if rung.status == "ok" else str(rung.status),
             f"{rung.runtime:.2f} s",
-            MEANINGS[rung.key][1],
+            RUNGS[rung.key].meaning,
         ]
         for rung in rungs
     ]

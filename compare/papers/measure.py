@@ -26,7 +26,7 @@ def trials(problem: Problem, swarm: str, budget: Budget, runs: int) -> list[Grad
 
 def summary(found: Sequence[Graded]) -> dict[str, Any]:
     """Verified times of all runs [s], and the durations of the median one (the lower of two)."""
-    solved = sorted((g.row["seconds"], g.run.seed) for g in found if g.row["seconds"] is not None)
+    solved = sorted((g.row.seconds, g.run.seed) for g in found if g.row.seconds is not None)
     by_seed = {g.run.seed: durations_of(g.row).tolist() for g in found}
     median = solved[(len(solved) - 1) // 2] if solved else None
     return {

@@ -12,7 +12,7 @@ from dataclasses import asdict, dataclass
 from pathlib import Path
 from typing import Any
 
-from compare.benchmark.run import machine, versions_text
+from compare.benchmark.provenance import machine, versions_text
 from compare.commands import shared as commands
 from compare.papers.item import Item
 

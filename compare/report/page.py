@@ -4,26 +4,27 @@ from __future__ import annotations
 
 import base64
 import json
-from concurrent.futures import ProcessPoolExecutor
+from concurrent.futures import Executor
 from dataclasses import dataclass
 from pathlib import Path
 from typing import Any
 
 import jinja2
-import numpy as np
 
 from compare.audit import chapter
-from compare.benchmark.honest import key_of_paper
+from compare.benchmark.known_times import key_of_paper
+from compare.benchmark.ladders import LadderRecord
 from compare.benchmark.objective import CODINGS
+from compare.benchmark.rejudge import judged_again
+from compare.benchmark.rows import Row, RowStatus
 from compare.benchmark.run import each
 from compare.benchmark.statistics import Summary, best_claim, best_row, bound_of, summaries
-from compare.benchmark.store import Store
-from compare.commands import shared as commands
-from compare.report.figures import RUNG_NAMES, draw_case
-from compare.report.five_papers import five_papers
+from compare.benchmark.store import Settings, Store
+from compare.files import write_text
+from compare.report.figures.case import draw_case
+from compare.report.papers_at_a_glance import papers_at_a_glance
 from compare.studies.study import STUDIES
-from formulations import Problem
-from formulations.rungs import MEANINGS
+from formulations import RUNGS, Problem
 from metaheuristics import ALGORITHMS, GROUPS, NOT_REPRODUCIBLE
 
 FIGURES = {
@@ -39,30 +40,53 @@ LIMITATIONS = [
     "family; where it says not proved, against the best of many local solves of the exact NLP. Of "
     "B-splines only what holds for every motion is proved: their equations tie each piece to every "
     "duration, and enclosures of that are sharp only on boxes so narrow that there are too many.",
-    "The papers print no search box (but 003) and no way to treat velocities at its walls: the box, "
+    "The papers print no search box (but Lu 2024) and no way to treat velocities at its walls: the box, "
     "the clamp and every other reading are stated in compare/benchmark/objective.py and metaheuristics.",
     "The limits of bagging and cobot are assumed, as their files say: those papers print none.",
     "The waypoints of ur5 are used as printed; its Cartesian points are out of the arm's reach.",
     "TOPP-RA's times are those of a discretised path, with the stated grid error, and have no jerk "
     "limit. They are references, not bounds.",
     "Only joint limits count: no torques, no collisions, no Cartesian path.",
+    "Every stored row was judged again from its durations when this report was drawn. In the papers' "
+    "coding the claimed time of a motion that keeps its limits only once it is slowed down cannot be "
+    "judged again: its searches, joint by joint, are not stored.",
 ]
 
 
-def render(
-    pool: ProcessPoolExecutor, folder: Path, problems: dict[str, Problem], settings: dict[str, Any]
-) -> Path:
-    """Figures, index.html, report.md from the store in ``folder``; returns the path of the page."""
+def render(pool: Executor, folder: Path, problems: dict[str, Problem], settings: Settings) -> Path:
+    """Draw all figures and write index.html and report.md, from the store alone.
+
+    Parameters
+    ----------
+    pool : Executor
+    folder : Path
+        Folder of the store and of the report.
+    problems : dict of str to Problem
+        By case.
+    settings : Settings
+        What was asked for.
+
+    Returns
+    -------
+    Path
+        The page.
+    """
     store = Store(folder)
-    rows, ladders = store.rows(), store.ladders()
-    calls = [(str(folder), case, problem) for case, problem in problems.items()]
+    ladders, traces = store.ladders(), store.traces()
+    rows = judged_again(store.rows(), problems, ladders)
+    calls = []
+    for case, problem in problems.items():
+        mine = [row for row in rows if row.case == case]
+        held = {r.key for r in mine if r.status is not RowStatus.contradicted}
+        kept = {key: found for key, found in traces.items() if key in held}
+        calls.append((folder, case, problem, ladders[case], mine, kept))
     for _ in each(pool, "figures", draw_case, calls):
         pass
     context = _context(rows, ladders, problems, settings)
     context["studies"] = {
         name: study for name, study in STUDIES.items() if (folder / "figures" / f"{name}.svg").exists()
     }
-    context |= of_the_papers(store, folder, context["cases"])
+    context |= papers_context(store, folder, context["cases"])
     bias = folder / "bias.json"
     context["bias"] = json.loads(bias.read_text("utf-8"))["summary"] if bias.exists() else {}
     context["figures"] = {
@@ -71,12 +95,18 @@ def render(
     }
     pages = environment(folder)
     for name in ("report.md", "index.html"):
-        commands.write_text(folder / name, pages.get_template(f"{name}.j2").render(context))
+        write_text(folder / name, pages.get_template(f"{name}.j2").render(context))
     return folder / "index.html"
 
 
 def environment(folder: Path) -> jinja2.Environment:
-    """The templates of every page, with their filters; ``inline(NAME)`` puts DIR/NAME.svg into a page."""
+    """Return the templates of every page, with their filters.
+
+    Parameters
+    ----------
+    folder : Path
+        Folder of the report; ``inline(NAME)`` puts DIR/NAME.svg into a page.
+    """
     made = jinja2.Environment(
         loader=jinja2.PackageLoader("compare.report"),
         autoescape=jinja2.select_autoescape(["html.j2"]),
@@ -92,22 +122,42 @@ def environment(folder: Path) -> jinja2.Environment:
     return made
 
 
-def of_the_papers(store: Store, folder: Path, cases: list[str]) -> dict[str, Any]:
-    """What the report says of the papers: audits, honest tables, moving arms; empty if never made."""
-    audits, honest = store.audits(), store.honest()
+def papers_context(store: Store, folder: Path, cases: list[str]) -> dict[str, Any]:
+    """Return what the report says of the papers; empty where nothing was made.
+
+    Parameters
+    ----------
+    store : Store
+    folder : Path
+        Folder of the report.
+    cases : list of str
+        The cases of the report.
+
+    Returns
+    -------
+    dict
+        For the templates: ``papers``, ``pages``, ``chapters``, ``known_times``, ``arms``.
+    """
+    audits, known = store.audits(), store.known_times()
     written = {case: f"papers/{key_of_paper(case)}.html" for case in cases}
     entries = chapter(data for stored in audits.values() for data in stored["audits"])
+    glance = papers_at_a_glance(audits, known, store.ladders())
     return {
-        "papers": [row for row in five_papers(audits, honest, store.ladders()) if row.case in cases],
+        "papers": [paper for paper in glance if paper.case in cases],
         "pages": {case: page for case, page in written.items() if (folder / page).exists()},
         "chapters": {entry["name"]: [entry] for entry in entries},
-        "honest": honest,
+        "known_times": known,
         "arms": {c: f"figures/{c}-arm" for c in cases if (folder / f"figures/{c}-arm.svg").exists()},
     }
 
 
 def percent(gap: float | None) -> str:
-    """A gap for people: 8.2 %, 0.013 %, 3e-06 %; anything at rounding is 0 %."""
+    """Return a gap for people: 8.2 %, 0.013 %, 3e-06 %; a gap that is rounding is 0 %.
+
+    Parameters
+    ----------
+    gap : float or None
+    """
     if gap is None:
         return "none"
     value = 100.0 * gap
@@ -119,25 +169,26 @@ def percent(gap: float | None) -> str:
 
 
 def _context(
-    rows: list[dict[str, Any]],
-    ladders: dict[str, dict[str, Any]],
+    rows: list[Row],
+    ladders: dict[str, LadderRecord],
     problems: dict[str, Problem],
-    settings: dict[str, Any],
+    settings: Settings,
 ) -> dict[str, Any]:
+    """What the templates say of the swarms."""
     found = summaries(rows)
     cases = [case for case in problems if case in ladders]
-    codings = [c for c in CODINGS if any(row["coding"] == c for row in rows)]
-    ran = {row["swarm"]: row["library"] for row in rows}
+    codings = [c for c in CODINGS if any(row.coding == c for row in rows)]
+    ran = {row.swarm: row for row in rows}
     order = [name for name in ALGORITHMS if name in ran] + [
         name for name in ran if name not in ALGORITHMS
     ]
-    swarms = {name: _Swarm.of(name, ran[name]) for name in order}
+    swarms = {name: _Swarm.of(ran[name]) for name in order}
+    contradicted = [row for row in rows if row.status is RowStatus.contradicted]
     return {
         "cases": cases,
         "problems": problems,
         "codings": {c: CODINGS[c] for c in codings},
         "swarms": swarms,
-        "libraries": ran,
         "groups": {
             title: members
             for group, title in GROUPS.items()
@@ -146,48 +197,50 @@ def _context(
         "lost": NOT_REPRODUCIBLE,
         "summaries": found,
         "ladders": ladders,
-        "rungs": RUNG_NAMES,
-        "meanings": MEANINGS,
+        "meanings": {key: rung.meaning for key, rung in RUNGS.items()},
         "bounds": {case: bound_of(ladders[case]) for case in cases},
         "headlines": [_headline(case, ladders[case], rows, found) for case in cases],
         "rows": len(rows),
         "faults": _faults(rows),
+        "contradicted": contradicted,
         "settings": settings,
-        "machine": rows[0]["machine"] if rows else "",
-        "versions": rows[0]["versions"] if rows else "",
+        "machine": rows[0].machine if rows else "",
+        "versions": rows[0].versions if rows else "",
         "limitations": LIMITATIONS,
     }
 
 
 @dataclass(frozen=True)
 class _Swarm:
-    """What the report says of a swarm; of somebody's own only what its rows know: no code is loaded."""
+    """What the report says of a swarm. Of a plug-in it says what the row knows: no code is loaded."""
 
     title: str
     source: str
     parameters: dict[str, Any]
+    library: str
+    isolated: bool
     group: str = "rivals"
     shortfall: str = ""
 
     @staticmethod
-    def of(name: str, library: str) -> _Swarm:
+    def of(row: Row) -> _Swarm:
+        name, library, apart = row.swarm, row.library, row.isolated
         if name in ALGORITHMS:
             a = ALGORITHMS[name]
-            return _Swarm(a.title, a.source, a.parameters, a.group, a.shortfall)
+            return _Swarm(a.title, a.source, a.parameters, library, apart, a.group, a.shortfall)
         place, _, what = name.partition(":")
-        return _Swarm(f"{what} of {place}" if library else "plugged in", place, {})
+        return _Swarm(f"{what} of {place}" if library else "plugged in", place, {}, library, apart)
 
 
 def _headline(
     case: str,
-    ladder: dict[str, Any],
-    rows: list[dict[str, Any]],
+    ladder: LadderRecord,
+    rows: list[Row],
     found: dict[tuple[str, str, str], Summary],
 ) -> dict[str, Any]:
     """One line per case: the optimum, the papers' best claim and what is left of it."""
-    mine = [row for row in rows if row["case"] == case]
+    mine = [row for row in rows if row.case == case]
     published = [s for (c, coding, _), s in found.items() if c == case and coding == "published"]
-    gaps = [s.gap for s in published if s.gap is not None]
     return {
         "case": case,
         "optimum": ladder["ladder"]["family"]["seconds"],
@@ -195,21 +248,16 @@ def _headline(
         "stretched": best_row(mine, coding="stretched"),
         "breaking": sum(s.breaking for s in published),
         "published": sum(s.seeds for s in published),
-        "gap": float(np.median(gaps)) if gaps else None,
     }
 
 
-def _faults(rows: list[dict[str, Any]]) -> list[tuple[str, int, str]]:
-    """Every status but ok: how often, and one note."""
-    statuses = sorted({row["status"] for row in rows} - {"ok"})
-    return [
-        (
-            status,
-            sum(row["status"] == status for row in rows),
-            next(row["note"] for row in rows if row["status"] == status),
-        )
-        for status in statuses
-    ]
+def _faults(rows: list[Row]) -> list[tuple[str, int, str]]:
+    """Every status but ok, and how often it stands; with one of its reasons."""
+    found: dict[RowStatus, list[Row]] = {}
+    for row in rows:
+        if row.status is not RowStatus.ok:
+            found.setdefault(row.status, []).append(row)
+    return [(status, len(group), group[0].note) for status, group in sorted(found.items())]
 
 
 def _shade(gap: float | None) -> str:

@@ -1,4 +1,4 @@
-"""How every picture looks: colours that colour-blind people can tell apart, one style."""
+"""How every picture looks: one style, and colours that colour-blind people can tell apart."""
 
 from __future__ import annotations
 
@@ -23,17 +23,30 @@ STYLE: dict[Any, Any] = {
     "svg.hashsalt": "timebound",
     "savefig.dpi": 110,
 }
-
+CODING_STYLE: dict[Any, Any] = {
+    "published": (VERMILION, "s"),
+    "shared": (SKY, "o"),
+    "stretched": (BLUE, "D"),
+}
+"""Colour and marker of each coding."""
+SMALLEST_GAP = 1e-12
+"""Smaller gaps are rounding; on a logarithmic axis they are drawn at this value."""
 
 P = ParamSpec("P")
 
 
 def styled(draw: Callable[P, Figure]) -> Callable[P, Figure]:
-    """Draw in the report's style wherever the function is called."""
+    """Make a function draw in the report's style, whoever calls it.
+
+    Parameters
+    ----------
+    draw : callable
+        Any function that returns a figure.
+    """
 
     @wraps(draw)
-    def styled(*args: P.args, **kwargs: P.kwargs) -> Figure:
+    def draw_styled(*args: P.args, **kwargs: P.kwargs) -> Figure:
         with mpl.rc_context(STYLE):
             return draw(*args, **kwargs)
 
-    return styled
+    return draw_styled

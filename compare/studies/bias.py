@@ -18,10 +18,10 @@ import matplotlib.pyplot as plt
 import numpy as np
 from matplotlib.figure import Figure
 
-from compare.benchmark.coordinates import COORDINATES, seen_in
 from compare.benchmark.objective import Objective, search_box
 from compare.report.style import BLUE, GREY, ORANGE, PURPLE, VERMILION, styled
 from compare.screen import table
+from compare.studies.origin_shift import COORDINATES, seen_in
 from compare.studies.study import Call, Study
 from formulations import Problem, family_optimum, load
 from formulations.problem.arrays import Array

@@ -27,7 +27,8 @@ import matplotlib as mpl
 import matplotlib.pyplot as plt
 from matplotlib.figure import Figure
 
-from compare.benchmark.run import digest, each, machine, versions_text
+from compare.benchmark.provenance import machine, problem_digest, versions_text
+from compare.benchmark.run import each
 from compare.files import write_json, write_text
 from compare.screen import bar
 from formulations import InputError, Problem
@@ -213,7 +214,7 @@ def _key(study: Study[Any], call: Call) -> str:
 
 def _plain(part: Any) -> str:
     if isinstance(part, Problem):
-        return f"{part.name} {digest(part)}"
+        return f"{part.name} {problem_digest(part)}"
     return f"{part.__module__}.{part.__qualname__}" if callable(part) else repr(part)
 
 

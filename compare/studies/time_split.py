@@ -16,7 +16,7 @@ timing and path are one share, "family".
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
 from dataclasses import asdict, dataclass
 from itertools import pairwise
 from typing import Any
@@ -25,6 +25,7 @@ import matplotlib.pyplot as plt
 from matplotlib.figure import Figure
 
 from compare.benchmark.grade import Run, grade
+from compare.benchmark.ladders import RungRecord, ladder_record
 from compare.benchmark.statistics import bound_of
 from compare.report.style import BLUE, GREEN, GREY, ORANGE, SKY, VERMILION, styled
 from compare.screen import table
@@ -62,7 +63,9 @@ class Share:
         return self.high - self.low
 
 
-def split(problem: Problem, rungs: dict[str, Any], seconds: float, coding: str) -> list[Share]:
+def split(
+    problem: Problem, rungs: Mapping[str, RungRecord], seconds: float, coding: str
+) -> list[Share]:
     """Split a verified time into its shares above the certified bound, from the bound up.
 
     Parameters
@@ -102,7 +105,7 @@ def split(problem: Problem, rungs: dict[str, Any], seconds: float, coding: str) 
     return [Share(name, low, high) for (_, low), (name, high) in pairwise(levels)]
 
 
-def path_timing(problem: Problem, rungs: dict[str, Any]) -> str | None:
+def path_timing(problem: Problem, rungs: Mapping[str, RungRecord]) -> str | None:
     """Find the rung that is the optimum on the family's own path under all limits.
 
     Parameters
@@ -148,16 +151,16 @@ def run_and_split(
     reasons : dict
         Why there are none, by coding.
     """
-    climbed = ladder(problem).to_json()
+    climbed = ladder_record(ladder(problem))
     bound, proof = bound_of(climbed)
     splits, reasons = {}, {}
     for coding in codings:
         run = Run(problem.name, coding, swarm, seed, budget, population)
         row = grade(run, problem, bound, proof).row
-        if row["seconds"] is None:
-            reasons[coding] = f"{row['status']}: {row['note']}"
+        if row.seconds is None:
+            reasons[coding] = f"{row.status}: {row.note}"
         else:
-            splits[coding] = split(problem, climbed["ladder"], row["seconds"], coding)
+            splits[coding] = split(problem, climbed["ladder"], row.seconds, coding)
     return splits, reasons
 
 

@@ -18,6 +18,7 @@ from __future__ import annotations
 import time
 from collections.abc import Callable
 from dataclasses import dataclass, field, replace
+from enum import StrEnum
 from functools import partial
 from typing import Any
 
@@ -30,6 +31,7 @@ from formulations.problem.arrays import Array
 from formulations.problem.errors import InputError, NoFeasibleMotion
 from formulations.problem.problem import Problem
 from formulations.proofs.certificate import certificate_of, certificate_of_proof
+from formulations.proofs.displacement import exceeded_time
 from formulations.proofs.domain import data_of
 from formulations.proofs.every_motion.velocity_acceleration import every_motion
 from formulations.proofs.four_three_four import bound as four_three_four
@@ -55,15 +57,23 @@ _BETTER = 1e-12  # relative; less is rounding
 _LOOK, _FIRST_LOOK = 9.0, 0.03  # times what the NLP took [s], before it is asked again; at first
 
 
+class ProofStatus(StrEnum):
+    """How the proof of a family's bound ended; whatever it is, the bound holds."""
+
+    PROVED = "proved"  # the gap that was asked for
+    TIME_LIMIT = "time limit"
+    UNDECIDED = "undecided"  # for the reason given
+    NOT_APPLICABLE = "not-applicable"  # for the reason given: only the displacements count
+
+
 @dataclass(frozen=True)
 class FamilyBound:
     """What is proved of one family: no durations are faster than ``seconds``.
 
     seconds: certified lower bound [s], valid whatever the status; 0 at worst. durations: the best
     found, (n_segments,) [s], None if none are known; upper: their verified total [s]. boxes: of all
-    attempts. runtime: s of this machine, NLP and compilation included. status: "proved" (the asked gap
-    was reached), "time limit", "undecided: reason" or "not applicable: reason". certificate: plain
-    data, if recorded.
+    attempts. runtime: s of this machine, NLP and compilation included. status, reason: how the
+    proof ended, and why if undecided or not applicable. certificate: plain data, if recorded.
     """
 
     problem: Problem
@@ -73,8 +83,14 @@ class FamilyBound:
     upper: float
     boxes: int
     runtime: float
-    status: str
+    status: ProofStatus
     certificate: dict[str, Any] | None = field(default=None, repr=False)
+    reason: str = ""
+
+    @property
+    def state(self) -> str:
+        """Status and reason in one line."""
+        return f"{self.status}: {self.reason}" if self.reason else str(self.status)
 
     @property
     def gap(self) -> float:
@@ -120,27 +136,28 @@ def family_bound(
     problem = replace(problem, family=chosen.name)
     answer = partial(_answer, problem, started)
     if not problem.moving_joints:
-        return answer(0.0, np.full(problem.n_segments, 0.0), 0.0, 0, "proved")
-    simple = displacement_bound(problem)
+        return answer(0.0, np.full(problem.n_segments, 0.0), 0.0, 0, ProofStatus.PROVED)
+    simple = exceeded_time(problem)
     reason = _refusal(problem)
     if reason:
         known = None if optimum is None else optimum.durations
         upper = np.inf if optimum is None else optimum.seconds
-        return answer(simple, known, upper, 0, f"not applicable: {reason}")
+        return answer(simple, known, upper, 0, ProofStatus.NOT_APPLICABLE, reason=reason)
     try:
         found = (optimum or family_optimum(problem)).durations
     except NoFeasibleMotion as failure:
-        return answer(simple, None, np.inf, 0, f"not applicable: {failure}")
+        return answer(simple, None, np.inf, 0, ProofStatus.NOT_APPLICABLE, reason=str(failure))
     if chosen.name not in PROVERS:
         motions = every_motion(problem)
         events = motions.events(problem.moving_joints) if motions.seconds > simple else []
         seconds = max(simple, motions.seconds)
         found, upper = _verified(problem, found)
-        status = "proved" if upper <= seconds * (1.0 + gap) else f"undecided: {_EVERY_MOTION}"
+        met = upper <= seconds * (1.0 + gap)
+        status, reason = (ProofStatus.PROVED, "") if met else (ProofStatus.UNDECIDED, _EVERY_MOTION)
         certificate = certificate_of(problem, seconds, events) if record else None
-        return answer(seconds, found, upper, 0, status, certificate)
+        return answer(seconds, found, upper, 0, status, certificate, reason)
     pursuit = _Pursuit(problem, PROVERS[chosen.name], found, record, progress)
-    status = pursuit.run(gap, time_limit)
+    status, reason = pursuit.run(gap, time_limit)
     proof, certificate = pursuit.best, None
     seconds = max(simple, proof.seconds if proof else 0.0)
     if record:
@@ -148,7 +165,7 @@ def family_bound(
             certificate = certificate_of_proof(problem, proof)
         else:
             certificate = certificate_of(problem, simple)
-    return answer(seconds, pursuit.durations, pursuit.upper, pursuit.boxes, status, certificate)
+    return answer(seconds, pursuit.durations, pursuit.upper, pursuit.boxes, status, certificate, reason)
 
 
 def _answer(
@@ -158,21 +175,14 @@ def _answer(
     durations: Array | None,
     upper: float,
     boxes: int,
-    status: str,
+    status: ProofStatus,
     certificate: dict[str, Any] | None = None,
+    reason: str = "",
 ) -> FamilyBound:
     runtime = time.perf_counter() - started
     return FamilyBound(
-        problem, problem.family, seconds, durations, upper, boxes, runtime, status, certificate
+        problem, problem.family, seconds, durations, upper, boxes, runtime, status, certificate, reason
     )
-
-
-def displacement_bound(problem: Problem) -> float:
-    """Sum over the segments of displacement over top speed [s], rounded down; 0 if nothing moves."""
-    if not problem.moving_joints:
-        return 0.0
-    data = data_of(problem)
-    return float((data.least / data.derivatives[0]).max(axis=1).sum() * (1.0 - 1e-13))
 
 
 def _refusal(problem: Problem) -> str:
@@ -209,7 +219,7 @@ class _Pursuit:
         progress: Callable[[float, int], None] | None,
     ) -> None:
         self.problem, self.begin, self.record, self.progress = problem, begin, record, progress
-        self.simple = displacement_bound(problem)
+        self.simple = exceeded_time(problem)
         self.boxes, self.restarts = 0, 0
         self.best: Proof | None = None
         self.upper, self.durations = np.inf, durations
@@ -221,7 +231,7 @@ class _Pursuit:
         self.anytime = first.setup.anytime is not None
         self.deadline = np.inf
 
-    def run(self, gap: float, time_limit: float) -> str:
+    def run(self, gap: float, time_limit: float) -> tuple[ProofStatus, str]:
         """Straight to the gap if that is cheap, else from coarse to fine: no time is lost.
 
         Where an unfinished attempt proves something too, straight to the gap all the time.
@@ -229,7 +239,7 @@ class _Pursuit:
         started = time.perf_counter()
         self.deadline = started + (1.0 if self.anytime else _STRAIGHT) * time_limit
         outcome = self._pursue(gap)
-        if outcome == "proved" or self.anytime:
+        if outcome[0] is ProofStatus.PROVED or self.anytime:
             return outcome
         self.deadline = started + time_limit
         rungs = [10.0**-e for e in range(12) if 10.0**-e > 2.0 * gap]
@@ -237,11 +247,11 @@ class _Pursuit:
             if self.best is not None and self.upper / (1.0 + rung) <= self.best.seconds:
                 continue
             outcome = self._pursue(rung)
-            if outcome != "proved":
+            if outcome[0] is not ProofStatus.PROVED:
                 return outcome
-        return "proved"
+        return ProofStatus.PROVED, ""
 
-    def _pursue(self, gap: float) -> str:
+    def _pursue(self, gap: float) -> tuple[ProofStatus, str]:
         """Prove upper / (1 + gap), from better and better motions as the proof finds them."""
         while True:
             # a little finer than asked, so that rounding does not leave the gap a digit above it
@@ -251,17 +261,18 @@ class _Pursuit:
             if proof.seconds > (self.best.seconds if self.best else 0.0):
                 self.best = proof
             if proof.proved:
-                return "proved"
+                return ProofStatus.PROVED, ""
             if improved:
                 self.restarts += 1
                 continue
             if not proof.stuck:
-                return "time limit"
+                return ProofStatus.TIME_LIMIT, ""
             if proof.setup.impossible:
-                return f"undecided: {proof.setup.impossible}"
+                return ProofStatus.UNDECIDED, proof.setup.impossible
             self.restarts += 1
             if not self._improve(proof.durations()) or self.restarts > _RESTARTS:
-                return f"undecided: the box about {np.array2string(proof.durations(), precision=6)} s"
+                middle = np.array2string(proof.durations(), precision=6)
+                return ProofStatus.UNDECIDED, f"the box about {middle} s"
 
     def _attempt(self, L: float) -> Proof:
         return Proof(self.begin(self.problem, L, near=self.durations), L, record=self.record)

@@ -1,21 +1,16 @@
-"""Reference timings, one file each, one signature: Problem -> Outcome. Add yours to REFERENCES."""
+"""Reference timings, one file each; the entry of each stands in its file and is listed in ``rungs.RUNGS``.
+
+displacement   displacement at top speed, the simplest lower bound
+ruckig_        Ruckig: end to end (a lower bound), and with a stop at each waypoint (an upper bound)
+toppra_        TOPP-RA on a fixed path, without jerk limits
+copp_          COPP on a fixed path, with jerk limits
+reference      what a rung is and what its function returns
+"""
 
 from __future__ import annotations
 
-from collections.abc import Callable
-
-from formulations.problem.problem import Problem
 from formulations.references.copp_ import copp_on
-from formulations.references.displacement import displacement
-from formulations.references.reference import Outcome
-from formulations.references.ruckig_ import ruckig_end_to_end, ruckig_stop_and_go
-from formulations.references.toppra_ import toppra_cubic, toppra_on
+from formulations.references.reference import Kind, Outcome, Rung, Status, Takes
+from formulations.references.toppra_ import toppra_on
 
-REFERENCES: dict[str, Callable[[Problem], Outcome]] = {
-    "displacement": displacement,
-    "ruckig_end_to_end": ruckig_end_to_end,
-    "ruckig_stop_and_go": ruckig_stop_and_go,
-    "toppra_cubic": toppra_cubic,
-}
-
-__all__ = ["REFERENCES", "Outcome", "copp_on", "toppra_on"]
+__all__ = ["Kind", "Outcome", "Rung", "Status", "Takes", "copp_on", "toppra_on"]

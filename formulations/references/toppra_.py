@@ -18,8 +18,8 @@ from scipy.interpolate import CubicSpline
 from formulations.motion.trajectory import Trajectory
 from formulations.problem.arrays import Array
 from formulations.problem.problem import Problem
-from formulations.references.displacement import displacement_segments
-from formulations.references.reference import Outcome
+from formulations.proofs.displacement import displacement_durations
+from formulations.references.reference import Kind, Outcome, Rung, Takes
 
 _GRIDS = (100, 200, 400, 800, 1600)  # intervals per path piece, coarse to fine
 _GRID_ERROR = 2e-4  # refine until doubling the grid changes the duration by less
@@ -55,7 +55,7 @@ def toppra_cubic(problem: Problem) -> Outcome:
     """TOPP-RA on the clamped cubic spline through the waypoints, knots by displacement time."""
     if not problem.moving_joints:
         return Outcome.ok(0.0, note="nothing moves")
-    times = displacement_segments(problem)
+    times = displacement_durations(problem)
     moves = times > 0.0
     knots = np.concatenate([[0.0], np.cumsum(times[moves])])
     points = problem.waypoints[np.concatenate([[True], moves])]
@@ -160,3 +160,21 @@ def _time(problem: Problem, path: _ArcLength) -> float | str:
 
 def _symmetric(limit: Array) -> Array:
     return np.stack([-limit, limit], axis=1)
+
+
+TOPPRA_FAMILY_PATH = Rung(
+    key="toppra_family_path",
+    kind=Kind.REFERENCE,
+    name="TOPP-RA, path of the optimum (no jerk limit)",
+    meaning="TOPP-RA on the family optimum's path, no jerk limit",
+    find=toppra_on,
+    takes=Takes.PATH,
+    after=("family",),
+)
+TOPPRA_CUBIC = Rung(
+    key="toppra_cubic",
+    kind=Kind.REFERENCE,
+    name="TOPP-RA, clamped cubic (no jerk limit)",
+    meaning="TOPP-RA on the clamped cubic, no jerk limit",
+    find=toppra_cubic,
+)

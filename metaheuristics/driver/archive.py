@@ -28,6 +28,7 @@ class Result:
     note: str
     seconds_algorithm: float
     seconds_objective: float
+    isolated: bool = False
 
 
 class Archive:

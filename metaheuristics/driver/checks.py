@@ -3,12 +3,14 @@
 from __future__ import annotations
 
 import operator
+from typing import Any, cast
 
 import numpy as np
 from numpy.typing import ArrayLike
 
 from metaheuristics.driver.archive import Archive
-from metaheuristics.driver.task import Array, Fault, ObjectiveError, Status, TaskError, one_line
+from metaheuristics.driver.reason import reason, shown
+from metaheuristics.driver.task import Array, Fault, ObjectiveError, Status, TaskError
 
 ROUNDING = 1e-9  # relative: how far a claim may lie below what was evaluated
 
@@ -67,9 +69,12 @@ def fitness(returned: ArrayLike, n: int) -> Array:
 def population(yielded: object, lo: Array, hi: Array) -> Array:
     """Return what an algorithm yielded as the driver's own floats (n, dim), n >= 1, or its `Fault`."""
     try:
-        x = np.array(yielded, dtype=np.float64)  # a copy first: what was checked is what is evaluated
-    except Exception as error:
-        raise Fault(Status.wrong_shape, f"not an array of floats: {one_line(error)}") from None
+        array = np.asarray(yielded)
+        if array.dtype.kind == "c":
+            raise TypeError("complex numbers")
+        x = np.array(array, dtype=np.float64)  # a copy first: what is checked is what is evaluated
+    except BaseException as error:  # of foreign objects: whatever they raise
+        raise Fault(Status.wrong_shape, f"not an array of floats: {reason(error)}") from None
     if x.ndim != 2 or x.shape[0] == 0 or x.shape[1] != lo.size:
         raise Fault(Status.wrong_shape, f"yielded shape {x.shape}, needs (n, {lo.size})")
     inside = (x >= lo) & (x <= hi)
@@ -83,12 +88,22 @@ def population(yielded: object, lo: Array, hi: Array) -> Array:
 
 def claim(returned: object, archive: Archive) -> None:
     """Raise a `Fault` if a returned (x, fitness) is better than anything that was evaluated."""
-    if not isinstance(returned, tuple) or len(returned) != 2:
+    kind: type = type(returned)  # the true one, and the methods of a plain tuple: both can be faked
+    pair = cast("tuple[object, ...]", returned)
+    if not issubclass(kind, tuple) or tuple.__len__(pair) != 2:
         return  # no claim
+    claimed: Any = tuple.__getitem__(pair, 1)
     try:
-        fitness = float(returned[1])
-    except (TypeError, ValueError):
-        raise Fault(Status.false_fitness, f"claims {returned[1]!r}, which is no number") from None
+        number = claimed.item() if type(claimed) is np.ndarray and claimed.size == 1 else claimed
+        fitness = float(number)
+    except BaseException:  # of a foreign object: whatever it raises
+        raise Fault(Status.false_fitness, f"claims {shown(claimed)}, which is no number") from None
     least = archive.fitness
     if not fitness >= least - ROUNDING * abs(least):  # NaN too
         raise Fault(Status.false_fitness, f"claims {fitness:.9g}; its best evaluated is {least:.9g}")
+
+
+def unchanged(theirs: Array, ours: Array) -> bool:
+    """Tell whether an array that was lent to an algorithm is still the same, bit by bit."""
+    same_kind = theirs.dtype == ours.dtype and theirs.shape == ours.shape
+    return same_kind and theirs.tobytes() == ours.tobytes()

@@ -38,6 +38,7 @@ class Status(StrEnum):
     raised = "raised"
     exited = "exited"
     timed_out = "timed-out"
+    bad_message = "bad-message"
     wrong_shape = "wrong-shape"
     out_of_box = "out-of-box"
     not_finite = "not-finite"
@@ -99,8 +100,3 @@ class Task:
     def clip(self, x: Array) -> Array:
         """Return x (..., dim) with every coordinate moved to the nearest one in the box."""
         return np.minimum(np.maximum(x, self.lo), self.hi)
-
-
-def one_line(error: BaseException) -> str:
-    """Return an exception's type and message on one line."""
-    return " ".join(f"{type(error).__name__}: {error}".split())

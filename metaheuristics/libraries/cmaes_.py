@@ -9,7 +9,7 @@ from __future__ import annotations
 import numpy as np
 
 from metaheuristics.driver.task import Moves, Task
-from metaheuristics.libraries.library import finite, seed_of
+from metaheuristics.libraries.shared import finite, seed_of
 
 
 def cma_es(task: Task, *, sigma: float = 0.3) -> Moves:

@@ -8,7 +8,7 @@ from typing import Any
 
 from metaheuristics.driver.bridge import inverted
 from metaheuristics.driver.task import Array, Moves, Task
-from metaheuristics.libraries.library import finite, library, seed_of
+from metaheuristics.libraries.shared import finite, library, seed_of
 
 
 def find(name: str) -> Any:

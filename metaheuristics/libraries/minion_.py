@@ -9,7 +9,7 @@ import numpy as np
 
 from metaheuristics.driver.bridge import inverted
 from metaheuristics.driver.task import Array, Moves, Task
-from metaheuristics.libraries.library import finite, library, seed_of
+from metaheuristics.libraries.shared import finite, library, seed_of
 
 
 def lshade(task: Task, *, memory_size: int = 6) -> Moves:
@@ -22,8 +22,16 @@ def minion(name: str, task: Task) -> Moves:
     return _search(task, name, None)
 
 
+def find(name: str) -> Any:
+    """Return the minimiser of this name.  Raises AttributeError."""
+    found = getattr(library("minionpy"), name)
+    if not issubclass(found, library("minionpy").MinimizerBase):
+        raise AttributeError(f"{name} is no minimiser")
+    return found
+
+
 def _search(task: Task, name: str, options: dict[str, Any] | None) -> Moves:
-    minimiser = getattr(library("minionpy"), name)
+    minimiser = find(name)
     bounds = list(zip(task.lo.tolist(), task.hi.tolist(), strict=True))
 
     def call(f: Callable[[Array], Array]) -> None:

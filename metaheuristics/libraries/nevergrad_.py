@@ -2,10 +2,17 @@
 
 from __future__ import annotations
 
+from typing import Any
+
 import numpy as np
 
 from metaheuristics.driver.task import Moves, Task
-from metaheuristics.libraries.library import finite, library, seed_of
+from metaheuristics.libraries.shared import finite, library, seed_of
+
+
+def find(name: str) -> Any:
+    """Return the optimiser of this name.  Raises KeyError."""
+    return library("nevergrad").optimizers.registry[name]
 
 
 def nevergrad(name: str, task: Task) -> Moves:
@@ -13,7 +20,7 @@ def nevergrad(name: str, task: Task) -> Moves:
     ng = library("nevergrad")
     box = ng.p.Array(init=(task.lo + task.hi) / 2, lower=task.lo, upper=task.hi)
     box.random_state = np.random.RandomState(seed_of(task))
-    search = ng.optimizers.registry[name](parametrization=box, budget=task.budget, num_workers=1)
+    search = find(name)(parametrization=box, budget=task.budget, num_workers=1)
     while True:
         point = search.ask()
         fitness = yield task.clip(point.value)[None]

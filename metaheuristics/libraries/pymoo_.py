@@ -9,7 +9,7 @@ from typing import Any
 import numpy as np
 
 from metaheuristics.driver.task import Moves, Task
-from metaheuristics.libraries.library import finite, library, seed_of
+from metaheuristics.libraries.shared import finite, library, seed_of
 
 FOLDER = "pymoo.algorithms.soo.nonconvex"
 

@@ -9,16 +9,23 @@ Sobol (1967), scrambled.
 from __future__ import annotations
 
 from collections.abc import Callable, Iterator
+from typing import Any
 
 import numpy as np
-from scipy import optimize
 
 from metaheuristics.driver.bridge import inverted
 from metaheuristics.driver.task import Array, Moves, Task
-from metaheuristics.libraries.library import finite
+from metaheuristics.libraries.shared import finite
 
 STEP = 1.5e-8  # of a difference on the unit box: the root of the rounding error
 BLOCK = 1024  # Sobol points are balanced in powers of two
+
+
+def _optimize() -> Any:
+    """Return `scipy.optimize`, which takes longer to load than the rest of this package."""
+    from scipy import optimize
+
+    return optimize
 
 
 def sobol(task: Task, *, population: int = 50) -> Moves:
@@ -41,6 +48,7 @@ def differential_evolution(
     task: Task, *, popsize: int = 15, strategy: str = "best1bin", tol: float = 1e-12
 ) -> Moves:
     """DE with the library's own defaults, but whole generations at once, no early stop, no polish."""
+    optimize = _optimize()
 
     def call(f: Callable[[Array], Array]) -> None:
         while True:
@@ -62,6 +70,7 @@ def differential_evolution(
 
 def dual_annealing(task: Task) -> Moves:
     """Generalised simulated annealing with local searches, the library's own defaults."""
+    optimize = _optimize()
 
     def call(f: Callable[[Array], Array]) -> None:
         while True:
@@ -91,6 +100,8 @@ def slsqp(task: Task, *, ftol: float = 1e-12) -> Moves:
 def _from_many_starts(
     task: Task, method: str, options: dict[str, float], *, gradient: bool = False
 ) -> Moves:
+    optimize = _optimize()
+
     def call(f: Callable[[Array], Array]) -> None:
         def unit(z: Array) -> Array:
             return finite(f(task.clip(task.lo + (task.hi - task.lo) * z)))

@@ -19,7 +19,7 @@ from metaheuristics.swarms.pso import Swarm
 Indices: TypeAlias = NDArray[np.int64]
 
 
-def pso_004(
+def pso_zhang_2025(
     task: Task,
     *,
     population: int = 20,

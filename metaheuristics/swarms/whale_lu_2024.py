@@ -17,7 +17,7 @@ from metaheuristics.driver.task import Moves, Task
 from metaheuristics.swarms.mipso import tent_population
 
 
-def whale_003(
+def whale_lu_2024(
     task: Task,
     *,
     population: int = 30,

@@ -15,9 +15,24 @@ from conftest import SOLVED, climbed, problems
 from hypothesis import Phase, given, settings
 from hypothesis import strategies as st
 
-from formulations import FAMILIES, Ladder, Limits, Problem, check, family_optimum, ladder, load, parse
+from formulations import (
+    FAMILIES,
+    REFERENCES,
+    RUNGS,
+    Ladder,
+    Limits,
+    Problem,
+    check,
+    family_optimum,
+    ladder,
+    load,
+    parse,
+)
+from formulations.climb import Climb
+from formulations.references import Kind, Outcome, Rung
 
-KINDS = {
+KINDS = {key: rung.kind for key, rung in RUNGS.items()}
+AGREED = {  # keys and kinds that other programs read; new ones may join
     "displacement": "lower",
     "ruckig_end_to_end": "lower",
     "free_form_lower": "lower",
@@ -108,6 +123,40 @@ def strict(found: Ladder) -> dict[str, Any]:
     assert all(isinstance(version, str) for version in read["versions"].values())
     assert {"python", "numpy", "scipy", "casadi", "ruckig", "toppra"} <= set(read["versions"])
     return dict(read)
+
+
+# --- the list of rungs ---------------------------------------------------------------------------
+
+
+def test_the_agreed_keys_are_in_the_list_in_their_order() -> None:
+    assert {key: KINDS[key] for key in KINDS if key in AGREED} == AGREED
+    assert [key for key in KINDS if key in AGREED] == list(AGREED)
+
+
+@pytest.mark.parametrize("key", RUNGS)
+def test_every_rung_says_what_it_is(key: str) -> None:
+    rung = RUNGS[key]
+    assert rung.key == key
+    assert rung.name
+    assert rung.meaning
+    assert len(rung.meaning.splitlines()) == len(rung.name.splitlines()) == 1
+    assert set(rung.after) < set(RUNGS)
+    assert not (rung.certified and rung.kind == "reference")
+    assert (key in REFERENCES) == (rung.takes == "problem")
+
+
+def test_an_upper_bound_whose_motion_breaks_a_limit_is_failed() -> None:
+    """Whoever made the motion: the ladder checks it itself."""
+    problem = parse("waypoints = [[0], [1]]\n[limits]\nvelocity = 1\nacceleration = 1\njerk = 4")
+    motion = ladder(problem).trajectories["ruckig_stop_and_go"]
+
+    def too_fast(problem: Problem) -> Outcome:
+        return Outcome.ok(motion.seconds / 2.0, trajectory=motion.stretched(0.5))
+
+    rung = Rung("mine", Kind.UPPER, "mine", "a motion", too_fast, certified=True)
+    found = Climb(problem).run({"mine": rung}, lambda key: None).rungs["mine"]
+    assert (found.status, found.seconds, found.certified) == ("failed", None, False)
+    assert "over the limit" in found.note
 
 
 # --- shipped cases --------------------------------------------------------------------------------

@@ -27,8 +27,8 @@ SETS = {False: 10, True: 50}  # further waypoints
 # --- Fig. 5 ---------------------------------------------------------------------------------------
 
 SWARMS = {
-    "whale-003": ("whales with inertia and chaotic start, resolved", (BLUE, "-")),
-    "whale-003-printed": ("the same, equations as printed", (ORANGE, "-")),
+    "whale-lu-2024": ("whales with inertia and chaotic start, resolved", (BLUE, "-")),
+    "whale-lu-2024-printed": ("the same, equations as printed", (ORANGE, "-")),
     "whale": ("whales as published in 2016", (GREEN, "-")),
 }
 
@@ -107,10 +107,10 @@ def _printed(by: str) -> str:
 def make_curves(full: bool) -> dict[str, Any]:
     """The paper's method and its rival on our waypoints; the families alone on these and on others."""
     found = {
-        "b-spline-5": plan(task("b-spline-5"), "whale-003", RUNS[full]),
+        "b-spline-5": plan(task("b-spline-5"), "whale-lu-2024", RUNS[full]),
         "quintic": plan(task("quintic"), "whale", RUNS[full]),
-        "b-spline-3": plan(task("b-spline-3"), "whale-003", RUNS[full]),
-        "quintic with the paper's whales": plan(task("quintic"), "whale-003", RUNS[full]),
+        "b-spline-3": plan(task("b-spline-3"), "whale-lu-2024", RUNS[full]),
+        "quintic with the paper's whales": plan(task("quintic"), "whale-lu-2024", RUNS[full]),
     }
     for entry in found.values():
         del entry["descent"]
@@ -128,7 +128,7 @@ def make_curves(full: bool) -> dict[str, Any]:
         for family in ("b-spline-5", "quintic"):
             problem = replace(task(family), waypoints=waypoints)
             run = Run(f"z1 drawn from {seed}", "stretched", "pso", 0, 5000, 50)
-            pair[family] = grade(run, problem, None, "none").row["seconds"]
+            pair[family] = grade(run, problem, None, "none").row.seconds
         others.append({"seed": seed, **pair})
     optima = {family: family_optimum(task(family)).seconds for family in ("b-spline-5", "quintic")}
     return {"found": found, "ends": ends, "optima": optima, "others": others}

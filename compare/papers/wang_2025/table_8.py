@@ -76,7 +76,7 @@ def repeat(limit: str, swarm: str, seeds: range) -> list[Row]:
         run = Run(f"sr4c joint 1 {limit}", "shared", swarm, seed,
                   POPULATION * (ITERATIONS + 1), POPULATION)  # fmt: skip
         row = grade(run, problem, None, "none").row
-        rows.append(Row(limit, swarm, seed, row["seconds"], row["status"]))
+        rows.append(Row(limit, swarm, seed, row.seconds, row.status))
     return rows
 
 

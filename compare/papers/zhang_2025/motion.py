@@ -26,7 +26,7 @@ _BUDGET = PAPER_BUDGETS["cobot"]
 # --- Fig. 6 ---------------------------------------------------------------------------------------
 
 SWARMS = {
-    "improved": ("improved PSO", "pso-004", (BLUE, "-")),
+    "improved": ("improved PSO", "pso-zhang-2025", (BLUE, "-")),
     "PSO": ("standard PSO", "pso-linear", (VERMILION, "-")),
     "WOA": ("standard whales", "whale", (GREEN, "-")),
     "PSO, no inertia": ("PSO of eq. 1-2", "pso-1995", (ORANGE, "-")),
@@ -152,7 +152,7 @@ def make_curves(full: bool) -> dict[str, Any]:
     problem = load("cobot")
     row = next(r for r in load_papers("cobot")[0].rows if r.joint is None)
     seconds = float(tables("cobot")["first_plan"]["seconds"])
-    whole = summary(trials(problem, "pso-004", _BUDGET, RUNS[full]))
+    whole = summary(trials(problem, "pso-zhang-2025", _BUDGET, RUNS[full]))
     motions = {
         "before": judged(problem, np.full(3, seconds / 3.0)),
         "before, 2, 3 and 2 s": judged(problem, seconds * np.array([2.0, 3.0, 2.0]) / 7.0),

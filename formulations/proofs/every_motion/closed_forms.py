@@ -1,7 +1,7 @@
 """Lower bounds in closed form: what no motion through the waypoints can do without.
 
-Displacement: |d| / V on every segment. End to end: rest to rest from the first waypoint to the last.
 One by one: each segment by itself, the first from rest, the last to rest, the others at top speed.
+(``proofs.displacement`` and ``proofs.rest_to_rest`` hold the bounds of the displacements and end to end.)
 
 Every formula is a few roundings of sums and products of positive numbers, 1e-14 at most in relative
 size, and continuous from case to case; ``SAFE`` is far beyond that.
@@ -15,21 +15,9 @@ import numpy as np
 
 from formulations.problem.arrays import Array
 from formulations.problem.problem import Problem
-from formulations.references.ruckig_ import rest_to_rest
+from formulations.proofs.rest_to_rest import end_to_end_bound, rest_to_rest
 
 SAFE = 1e-12
-
-
-def displacement_bound(problem: Problem) -> float:
-    """Sum over the segments of displacement at top speed [s]."""
-    each = (np.abs(problem.displacements) / problem.limits.velocity).max(axis=1)
-    return float(each.sum()) * (1.0 - SAFE)
-
-
-def end_to_end_bound(problem: Problem) -> float:
-    """Rest to rest from the first to the last waypoint, joint by joint [s]."""
-    distances = np.abs(problem.waypoints[-1] - problem.waypoints[0])
-    return max(_rest_to_rest(problem, j, d) for j, d in enumerate(distances)) * (1.0 - SAFE)
 
 
 def least_durations(problem: Problem) -> Array:

@@ -16,12 +16,8 @@ import numpy as np
 from formulations.motion.trajectory import Trajectory, check
 from formulations.problem.arrays import Array
 from formulations.problem.problem import Problem
-from formulations.proofs.every_motion.closed_forms import (
-    displacement_bound,
-    end_to_end_bound,
-    least_durations,
-    stop_and_go,
-)
+from formulations.proofs.displacement import displacement_bound
+from formulations.proofs.every_motion.closed_forms import least_durations, stop_and_go
 from formulations.proofs.every_motion.descent import descended
 from formulations.proofs.every_motion.motion import motion_through
 from formulations.proofs.every_motion.prices import savings
@@ -32,6 +28,7 @@ from formulations.proofs.every_motion.relaxation.rows import Frame
 from formulations.proofs.every_motion.relaxation.task import Task
 from formulations.proofs.every_motion.relaxation.tightening import Boxes, tightened
 from formulations.proofs.every_motion.states import states_at
+from formulations.proofs.rest_to_rest import end_to_end_bound
 
 _TIGHT = "tight as it gets"
 _BEYOND = 1e-6  # slower than the known motion by this is looked at too, lest the program be empty

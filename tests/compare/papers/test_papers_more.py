@@ -151,9 +151,9 @@ def test_the_least_time_is_proved_and_reached():
     again = judged(joint, found["durations"])
     assert again["keeps"]
     assert again["seconds"] == pytest.approx(found["optimum"], rel=1e-9)
-    runs = trials(joint, "pso-004", Budget(20, 20), 4)
+    runs = trials(joint, "pso-zhang-2025", Budget(20, 20), 4)
     seconds = summary(runs)
-    assert seconds["median"] == sorted(g.row["seconds"] for g in runs)[1]
+    assert seconds["median"] == sorted(g.row.seconds for g in runs)[1]
     assert sum(seconds["durations"]) == pytest.approx(seconds["median"])
     assert seconds["seconds"][0] >= found["bound"]
 

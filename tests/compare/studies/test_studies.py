@@ -8,16 +8,17 @@ from pathlib import Path
 
 import numpy as np
 import pytest
+from graded_runs import without_times
 from hypothesis import given
 from hypothesis import strategies as st
 
-from compare.benchmark.coordinates import COORDINATES, seen_in
 from compare.benchmark.grade import Run, grade
 from compare.benchmark.objective import Objective, search_box
 from compare.benchmark.suite import DEFAULT_CONTROLS, FULL_CONTROLS, QUICK_SWARMS, runs, swarms_of
 from compare.papers.wang_2025 import cec2017 as ablation
 from compare.papers.wang_2025 import table_8 as table8
 from compare.studies import bias, readings
+from compare.studies.origin_shift import COORDINATES, seen_in
 from compare.studies.speed_swarms import costs
 from formulations import InputError, load
 from metaheuristics import ALGORITHMS
@@ -30,8 +31,7 @@ def test_hostile_swarms_have_a_row_each_and_touch_no_other() -> None:
 
     def row(swarm: str, seconds: float | None) -> dict[str, object]:
         run = Run("cobot", "stretched", swarm, 0, 60, 20, seconds)
-        found = grade(run, problem, 3.3495).row
-        return {k: v for k, v in found.items() if not k.startswith("seconds_")}
+        return without_times(grade(run, problem, 3.3495).row)
 
     before = row("pso", None)
     rows = {name: row(f"hostile:{name}", 1.0) for name in ("crasher", "sleeper", "gambler")}
@@ -40,18 +40,21 @@ def test_hostile_swarms_have_a_row_each_and_touch_no_other() -> None:
     }  # fmt: skip
     assert rows["crasher"]["evaluations"] == 4
     assert all(found["note"] and found["seconds"] is not None for found in rows.values())
-    assert row("pso", None) == before == row("pso", 30.0)
+    apart = row("pso", 30.0)
+    assert (apart.pop("isolated"), apart.pop("time_limit")) == (True, 30.0)
+    assert (before.pop("isolated"), before.pop("time_limit")) == (False, None)
+    assert {k: row("pso", None)[k] for k in before} == before == apart
 
 
 def test_a_row_says_which_library_and_why_a_swarm_fell_short() -> None:
     problem, bound = load("sr4c"), 4.700656
     row = grade(Run("sr4c", "stretched", "random", 0, 200, 20), problem, bound).row
-    assert row["gap"] > 1e-3
-    assert row["note"] == ALGORITHMS["random"].shortfall
-    assert row["library"] == ""
+    assert row.gap > 1e-3
+    assert row.note == ALGORITHMS["random"].shortfall
+    assert row.library == ""
     row = grade(Run("sr4c", "stretched", "cma-es", 0, 400, 20), problem, bound).row
-    assert row["library"].startswith("cmaes=")
-    assert row["note"] == ""
+    assert row.library.startswith("cmaes=")
+    assert row.note == ""
 
 
 def test_the_default_runs_every_algorithm_of_the_papers() -> None:

@@ -34,7 +34,7 @@ from formulations.optima.free_form.nlp.assembly import trajectory
 from formulations.optima.free_form.nlp.program import Program
 from formulations.optima.free_form.nlp.task import Task
 from formulations.optima.free_form.stop_and_go import stop_and_go
-from formulations.references.ruckig_ import rest_to_rest
+from formulations.proofs.rest_to_rest import rest_to_rest
 
 UR5, SR4C, Z1 = load("ur5"), load("sr4c"), load("z1")
 JERKY = replace(

@@ -35,9 +35,10 @@ from formulations import (
 )
 from formulations.proofs.arithmetic.outward import down, quadratic_least, up
 from formulations.proofs.certificate import certificate_of, certificate_of_proof, write_certificate
+from formulations.proofs.displacement import displacement_bound
 from formulations.proofs.events import ABOVE, ASIDE, BELOW, EMPTY, LEAF, SPLIT, TURN
 from formulations.proofs.every_motion.velocity_acceleration import every_motion
-from formulations.proofs.family import PROVERS, displacement_bound
+from formulations.proofs.family import PROVERS
 from formulations.proofs.four_three_four import bound as four_three_four
 from formulations.proofs.proof import Proof
 from formulations.proofs.quintic import bound as quintic
@@ -229,7 +230,8 @@ def as_quintic(problem: Problem) -> Problem:
 def test_of_b_splines_the_bound_of_every_motion_is_proved_and_said(family: str) -> None:
     problem = replace(load("z1"), family=family)
     bound = family_bound(problem, optimum=anyhow(problem))
-    assert bound.status.startswith("undecided: what is proved holds for every motion")
+    assert bound.status == "undecided"
+    assert bound.reason.startswith("what is proved holds for every motion")
     assert displacement_bound(problem) * 1.7 < bound.seconds < bound.upper
 
 
@@ -267,7 +269,7 @@ def test_no_motion_of_a_family_is_faster_than_its_bound(family: str) -> None:
 def test_a_joint_without_any_limit_is_not_applicable() -> None:
     unlimited = replace(Limits.of(1.0, dof=1), velocity=np.array([np.inf]))  # ``of`` refuses it
     problem = Problem.of([[0.0], [1.0], [2.0], [3.0]], unlimited)
-    assert "without a limit" in family_bound(problem).status
+    assert "without a limit" in family_bound(problem).reason
 
 
 def test_misuse_is_one_clear_line() -> None:
@@ -856,9 +858,9 @@ def test_no_swarm_beats_the_certified_bound(sr4c: FamilyBound) -> None:
     for coding in CODINGS:
         for swarm in ALGORITHMS:
             row = grade(Run("sr4c", coding, swarm, 0, 2000, 20), problem, sr4c.seconds).row
-            if row["seconds"] is not None:
+            if row.seconds is not None:
                 judged += 1
-                assert row["seconds"] >= sr4c.least_verified
+                assert row.seconds >= sr4c.least_verified
     assert judged > 3
 
 

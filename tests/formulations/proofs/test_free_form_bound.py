@@ -40,7 +40,8 @@ from formulations.proofs.every_motion.relaxation.separation import separate
 from formulations.proofs.every_motion.relaxation.switches import farthest, fastest
 from formulations.proofs.every_motion.relaxation.task import Task
 from formulations.proofs.every_motion.relaxation.tightening import tightened
-from formulations.references.ruckig_ import pieces_of, rest_to_rest
+from formulations.proofs.rest_to_rest import rest_to_rest
+from formulations.references.ruckig_ import pieces_of
 
 ROUNDING = 1e-12  # in the motions themselves, in units of the rows' variables
 SIZE = powers_of_ten(-1.0, 1.0)

@@ -190,3 +190,9 @@ def poser(f: F, lo: Array, hi: Array, budget: int, rng: np.random.Generator) -> 
 
 
 not_callable = 3
+
+
+def aborter(task: Task) -> Moves:
+    """Crash."""
+    yield task.sample(4)
+    os.abort()

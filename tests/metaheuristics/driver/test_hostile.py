@@ -24,7 +24,7 @@ from metaheuristics import (
 )
 from metaheuristics.driver.plug_in import search_of
 from metaheuristics.driver.task import Fault, Moves, Search, Task
-from metaheuristics.libraries.library import INFEASIBLE, finite, library
+from metaheuristics.libraries.shared import INFEASIBLE, finite, library
 
 pytestmark = pytest.mark.filterwarnings("error")
 

@@ -32,9 +32,9 @@ from metaheuristics.swarms.butterfly import butterfly, fragrance, grown
 from metaheuristics.swarms.issa import Blend, issa, weight
 from metaheuristics.swarms.mipso import tent_population
 from metaheuristics.swarms.mpso import linear_factor, mpso
-from metaheuristics.swarms.pso_zhang_2025 import adaptive_factors, pso_004, three_others
+from metaheuristics.swarms.pso_zhang_2025 import adaptive_factors, pso_zhang_2025, three_others
 from metaheuristics.swarms.sparrow import Flock, forage, sparrow, sparrow_printed
-from metaheuristics.swarms.whale_lu_2024 import inertia, whale_003
+from metaheuristics.swarms.whale_lu_2024 import inertia, whale_lu_2024
 
 pytestmark = pytest.mark.filterwarnings("error")
 
@@ -108,7 +108,7 @@ def test_the_pso_of_004_moves_as_the_loops_say(printed: bool) -> None:
 
     assert cut == {"c1", "c2"}, "the listed bounds of the factors were never met"
     parameters: dict[str, Any] = {"alpha": alpha, "beta": beta, "F": F, "CR": CR, "printed": printed}
-    actual = recorded(pso_004, budget=n * steps, seed=11, population=n, **parameters)
+    actual = recorded(pso_zhang_2025, budget=n * steps, seed=11, population=n, **parameters)
     assert_same_batches(actual.batches, expected)
     assert inf in actual.values
 
@@ -373,7 +373,7 @@ def test_the_whales_of_003_move_as_the_loops_say(printed: bool) -> None:
         expected.append(x)
     assert branches == {"spiral", "round"} | (set() if printed else {"search"})
     parameters: dict[str, Any] = {"population": n, "s": s, "b": b, "lam": lam, "printed": printed}
-    actual = recorded(whale_003, budget=n * steps, seed=8, **parameters)
+    actual = recorded(whale_lu_2024, budget=n * steps, seed=8, **parameters)
     assert_same_batches(actual.batches, expected)
 
 
@@ -462,7 +462,7 @@ def test_no_butterfly_ever_worsens() -> None:
 
 KNOWS_WHERE_ZERO_IS = {
     "sparrow", "sparrow-printed", "butterfly", "issa", "issa-blended",
-    "whale", "whale-003", "whale-003-printed",
+    "whale", "whale-lu-2024", "whale-lu-2024-printed",
 }  # fmt: skip
 OWN = [name for name, a in ALGORITHMS.items() if not a.libraries]
 

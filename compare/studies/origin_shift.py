@@ -1,8 +1,8 @@
-"""Coordinates: where an objective's zero lies, as an experimental factor.
+"""Where an objective's zero lies, as an experimental factor: the same search in other coordinates.
 
 printed   as the paper has them: durations, with zero just below the box
-mirrored  each coordinate counted from the other end of the box: short is where long was
-offset    zero ten box widths below the box
+mirrored  each coordinate counted from the other end of the box: what was short is now long
+offset    zero lies ten widths of the box below it
 """
 
 from __future__ import annotations
@@ -20,7 +20,23 @@ WIDTHS = 10.0
 def seen_in(
     coordinates: str, f: Callable[[Array], Array], lo: Array, hi: Array
 ) -> tuple[Callable[[Array], Array], Array, Array]:
-    """The same f, (n, dim) -> (n,), on its box [lo, hi] (dim,) in other coordinates: f, lo, hi."""
+    """Return an objective and its box in other coordinates.
+
+    Parameters
+    ----------
+    coordinates : str
+        One of ``COORDINATES``.
+    f : callable
+        Objective, (n, dim) -> (n,).
+    lo, hi : Array, shape (dim,)
+        Its box.
+
+    Returns
+    -------
+    f, lo, hi
+        The same values at the points that stand for the same candidates.
+
+    """
     if coordinates == "mirrored":
         return lambda u: f(np.clip(lo + hi - u, lo, hi)), lo, hi
     if coordinates == "offset":

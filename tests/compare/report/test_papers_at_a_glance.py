@@ -4,18 +4,17 @@ from __future__ import annotations
 
 import json
 from concurrent.futures import ThreadPoolExecutor
-from dataclasses import asdict
 from pathlib import Path
 
 import pytest
 
 from compare.audit import FAULTS
 from compare.audit.findings import IN_SHORT
-from compare.benchmark.honest import honest_table, key_of_paper
+from compare.benchmark.known_times import key_of_paper, table_of_known_times
 from compare.benchmark.run import audits
 from compare.benchmark.store import Store
-from compare.report.five_papers import five_papers
-from compare.report.page import environment, of_the_papers
+from compare.report.page import environment, papers_context
+from compare.report.papers_at_a_glance import papers_at_a_glance
 from formulations import CASES, InputError, load
 
 
@@ -48,38 +47,36 @@ def test_every_case_comes_from_a_paper() -> None:
 def test_a_row_says_what_is_left_of_a_paper() -> None:
     known = {"ur5-corrected": (42.5705, 12.97), "cobot": (3.3496, 1.2), "z1": (15.5, 12.8)}
     ladders = {case: ladder_of(case, *times) for case, times in known.items()}
-    honest = {
-        case: [asdict(line) for line in honest_table(load(case), ladders[case], [])] for case in known
-    }
+    times = {case: table_of_known_times(load(case), ladders[case], []) for case in known}
     stored = {
         "ur5": [audit_of("ur5-corrected", "ISSA", "no", "limits", "limits", "sum", "keeps")],
         "cobot": [audit_of("cobot", "improved PSO", "no limits")],
         "z1": [audit_of("z1", "B-spline with WOA", "no", "missing")],
     }
-    rows = five_papers({key: {"audits": data} for key, data in stored.items()}, honest, ladders)
+    rows = papers_at_a_glance({key: {"audits": data} for key, data in stored.items()}, times, ladders)
     assert [row.case for row in rows] == ["cobot", "ur5-corrected", "z1"]
     cobot, ur5, z1 = rows
     # of PSO, SSA and ISSA the shortest; Table 6's longest times are 12.37 times too short
     assert (ur5.key, ur5.published, ur5.by, ur5.keeps) == ("ur5", 8.053, "ISSA", "no")
     assert ur5.stretch == pytest.approx(12.3729, abs=1e-4)
-    assert ur5.honest == pytest.approx(8.053 * 12.3729, abs=1e-3)
+    assert ur5.slowed == pytest.approx(8.053 * 12.3729, abs=1e-3)
     assert (ur5.optimum, ur5.proved, ur5.fastest) == (42.5705, True, 12.97)
     assert ur5.faults == ((IN_SHORT["limits"], 2, True), (IN_SHORT["sum"], 1, True))
     assert (cobot.keeps, cobot.stretch, cobot.faults) == ("prints none; keeps those assumed", None, ())
     # 003 prints no waypoints: nothing of the made ones may stand beside its total
     assert (z1.published, z1.keeps) == (11.71, "cannot be judged")
-    assert z1.optimum is z1.fastest is z1.honest is None
+    assert z1.optimum is z1.fastest is z1.slowed is None
 
 
-def test_what_leaves_the_position_limits_has_no_honest_total() -> None:
+def test_what_leaves_the_position_limits_has_no_slowed_total() -> None:
     # as printed, joint 6 of ur5 turns beyond 360 deg with ISSA's times
-    lines = honest_table(load("ur5"), {"ladder": {}}, [])
-    found = five_papers(
+    lines = table_of_known_times(load("ur5"), {"ladder": {}}, [])
+    found = papers_at_a_glance(
         {"ur5": {"audits": [audit_of("ur5", "ISSA", "no")]}},
-        {"ur5": [asdict(line) for line in lines]},
+        {"ur5": lines},
         {"ur5": ladder_of("ur5", 43.8, 14.8)},
     )
-    assert (found[0].leaves, found[0].honest) == (True, None)
+    assert (found[0].leaves_position_limits, found[0].slowed) == (True, None)
 
 
 def test_audits_are_stored_kept_and_made_again(tmp_path: Path) -> None:
@@ -100,9 +97,9 @@ def test_audits_are_stored_kept_and_made_again(tmp_path: Path) -> None:
         audits(pool, ["z1"], store)
         assert store.audits()["z1"]["audits"][0]["paper"] == "z1"
     # a paper that has a page of its own is linked to it
-    assert of_the_papers(store, tmp_path, ["z1"])["pages"] == {}
+    assert papers_context(store, tmp_path, ["z1"])["pages"] == {}
     (tmp_path / "papers" / "z1.html").write_text("003")
-    context = of_the_papers(store, tmp_path, ["z1"])
+    context = papers_context(store, tmp_path, ["z1"])
     page = environment(tmp_path).get_template("papers.html.j2").render(context)
     assert 'href="papers/z1.html"' in page
     assert "003: Unitree Z1" in page

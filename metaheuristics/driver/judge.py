@@ -9,6 +9,7 @@ from __future__ import annotations
 
 import inspect
 from collections.abc import Callable
+from dataclasses import replace
 from time import perf_counter
 from typing import TypeVar
 
@@ -17,7 +18,9 @@ from numpy.typing import ArrayLike
 
 from metaheuristics.driver import checks
 from metaheuristics.driver.archive import Archive, Result
-from metaheuristics.driver.global_random import global_random
+from metaheuristics.driver.guards import Interrupt, global_random, user_interrupt
+from metaheuristics.driver.isolation import Apart
+from metaheuristics.driver.reason import fault_of
 from metaheuristics.driver.task import (
     Array,
     BudgetSpent,
@@ -27,7 +30,6 @@ from metaheuristics.driver.task import (
     Search,
     Status,
     Task,
-    one_line,
 )
 
 T = TypeVar("T")
@@ -64,23 +66,29 @@ def minimise(
         _used=lambda: archive.evaluations,
     )
     inspect.signature(algorithm).bind(task, **parameters)  # a TypeError here is the caller's
-    run = _Run(archive, f, lower, upper, budget)
-    with global_random(task.rng) as drawn:
+    lent = task.lo, task.hi
+    with user_interrupt() as interrupt, global_random(task.rng) as drawn:
+        run = _Run(archive, f, lower, upper, budget, interrupt)
         status, note = run.judged(lambda: algorithm(task, **parameters))
-    if status is Status.ok and not (np.array_equal(task.lo, lower) and np.array_equal(task.hi, upper)):
+    if status is Status.ok and not (
+        checks.unchanged(lent[0], lower) and checks.unchanged(lent[1], upper)
+    ):
         status, note = Status.changed_input, "wrote to the box"
     if status is Status.ok and drawn():
         status, note = Status.global_random, "drew from numpy.random or random, not from task.rng"
     if status is Status.ok and archive.x is None:
         status, note = Status.no_feasible_point, f"none of {budget} values was finite"
-    return archive.result(status, note, run.seconds_algorithm, run.seconds_objective)
+    seconds = run.seconds_algorithm, run.seconds_objective
+    return replace(archive.result(status, note, *seconds), isolated=type(algorithm) is Apart)
 
 
 class _Run:
     """One algorithm at work: every entry into it and into f is timed, what comes back is checked."""
 
-    def __init__(self, archive: Archive, f: Objective, lo: Array, hi: Array, budget: int) -> None:
-        self.archive = archive
+    def __init__(
+        self, archive: Archive, f: Objective, lo: Array, hi: Array, budget: int, interrupt: Interrupt
+    ) -> None:
+        self.archive, self.interrupt = archive, interrupt
         self.f, self.lo, self.hi, self.budget = f, lo, hi, budget
         self.seconds_algorithm = self.seconds_objective = 0.0
 
@@ -109,7 +117,10 @@ class _Run:
         yielded: object = self._guarded(lambda: next(moves))
         while True:
             left = self.budget - self.archive.evaluations
-            x = checks.population(yielded, self.lo, self.hi)[:left]
+            try:
+                x = checks.population(yielded, self.lo, self.hi)[:left]
+            finally:
+                self.interrupt.check()
             started = perf_counter()
             returned = self.f(x.copy())
             self.seconds_objective += perf_counter() - started
@@ -120,7 +131,7 @@ class _Run:
                 self._farewell(moves, told)
             else:
                 yielded = self._guarded(lambda told=told: moves.send(told))  # type: ignore[misc]
-            if not np.array_equal(told, fitness):
+            if not checks.unchanged(told, fitness):
                 raise Fault(Status.changed_input, "wrote to the fitness it was sent")
             if len(x) == left:
                 return
@@ -140,18 +151,16 @@ class _Run:
         """Let the algorithm work until it yields; raises the `Fault` it commits, timed."""
         started = perf_counter()
         try:
-            return enter()
-        except StopIteration as end:
-            checks.claim(end.value, self.archive)
-            raise Fault(*self._early()) from None
-        except (Fault, KeyboardInterrupt):
-            raise
-        except SystemExit as error:
-            raise Fault(Status.exited, one_line(error)) from error
-        except BaseException as error:
-            raise Fault(Status.raised, one_line(error)) from error
+            try:
+                return enter()
+            except StopIteration as end:
+                checks.claim(end.value, self.archive)
+                raise Fault(*self._early()) from None
+        except BaseException as error:  # of foreign code: whatever it raises
+            raise fault_of(error) from error
         finally:
             self.seconds_algorithm += perf_counter() - started
+            self.interrupt.check()
 
     def _early(self) -> tuple[Status, str]:
         used = self.archive.evaluations

@@ -1,0 +1,129 @@
+"""Least time of one joint from rest to rest, in closed form, and the same number as a proved bound.
+
+The fastest motion is the symmetric S-curve (Biagiotti & Melchiorri 2008, sec. 3.4). Its time has square
+and cube roots in it, but whether a given T is below that time is a question of rational numbers: the
+joint gets farthest in T seconds with the same S-curve, and how far follows from + - * / alone.
+"""
+
+from __future__ import annotations
+
+import math
+from fractions import Fraction
+
+from formulations.problem.problem import Problem
+from formulations.proofs.displacement import rounded_down
+
+
+def rest_to_rest(distance: float, velocity: float, acceleration: float, jerk: float) -> float:
+    """Least time of one joint from rest to rest, to within a few roundings.
+
+    Parameters
+    ----------
+    distance : float [rad]
+        Not negative.
+    velocity, acceleration, jerk : float [rad/s, rad/s^2, rad/s^3]
+        Positive limits; the jerk limit, or both the last two, may be infinite.
+
+    Returns
+    -------
+    float
+        Time [s].
+
+    """
+    if math.isinf(acceleration) and math.isinf(jerk):
+        return distance / velocity
+    # time to reach top speed from rest, with and without a phase of constant acceleration
+    if velocity / acceleration >= acceleration / jerk:
+        ramp = velocity / acceleration + acceleration / jerk
+    else:
+        ramp = 2.0 * math.sqrt(velocity / jerk)
+    if distance >= velocity * ramp:
+        return distance / velocity + ramp
+    rise = acceleration / jerk
+    if distance >= 2.0 * acceleration * rise * rise:
+        return rise + math.sqrt(rise * rise + 4.0 * distance / acceleration)
+    return 4.0 * math.cbrt(distance / (2.0 * jerk))
+
+
+def rest_to_rest_bound(distance: Fraction, velocity: float, acceleration: float, jerk: float) -> float:
+    """Largest float that no motion of one joint from rest to rest is faster than.
+
+    Parameters
+    ----------
+    distance : Fraction [rad]
+        Exact, not negative.
+    velocity, acceleration, jerk : float [rad/s, rad/s^2, rad/s^3]
+        Positive limits; all but the first may be infinite.
+
+    Returns
+    -------
+    float
+        Proved lower bound [s].
+
+    """
+    if distance == 0:
+        return 0.0
+    if math.isinf(acceleration) and math.isinf(jerk):
+        return rounded_down(distance / Fraction(velocity))
+    seconds = rest_to_rest(float(distance), velocity, acceleration, jerk)
+    step = 1
+    while not _takes_at_least(seconds, distance, velocity, acceleration, jerk):
+        seconds = _floats_away(seconds, -step)
+        step *= 2
+    while _takes_at_least(above := _floats_away(seconds, 1), distance, velocity, acceleration, jerk):
+        seconds = above
+    return seconds
+
+
+def end_to_end_bound(problem: Problem) -> float:
+    """Proved lower bound on every motion: rest to rest from the first waypoint to the last.
+
+    Parameters
+    ----------
+    problem : Problem
+        Its inner waypoints are ignored, which makes the motions more.
+
+    Returns
+    -------
+    float
+        Bound of the slowest joint, rounded down [s].
+
+    """
+    first, last = problem.waypoints[0].tolist(), problem.waypoints[-1].tolist()
+    return max(
+        rest_to_rest_bound(abs(Fraction(end) - Fraction(start)), *map(float, limits))
+        for start, end, limits in zip(first, last, problem.limits.derivatives.T, strict=True)
+    )
+
+
+def _takes_at_least(
+    seconds: float, distance: Fraction, velocity: float, acceleration: float, jerk: float
+) -> bool:
+    """Whether ``distance`` is as far as a joint gets from rest to rest in ``seconds``, or farther."""
+    T, V = Fraction(seconds), Fraction(velocity)
+    A = None if math.isinf(acceleration) else Fraction(acceleration)
+    J = None if math.isinf(jerk) else Fraction(jerk)
+    half = T / 2
+    # speed reached halfway if top speed were no limit: jerk J, acceleration A, jerk -J
+    if J is None:
+        assert A is not None
+        speed = A * half
+    elif A is None or half * J <= 2 * A:
+        speed = J * half * half / 4
+    else:
+        speed = A * (half - A / J)
+    if speed <= V:
+        return speed * half <= distance
+    # top speed is held; either ramp covers half of its time times V, so the distance is V (T - ramp)
+    cruise = T - distance / V
+    if J is None:
+        assert A is not None
+        return cruise <= V / A
+    if A is not None and V / A >= A / J:
+        return cruise <= V / A + A / J
+    return cruise <= 0 or cruise * cruise <= 4 * V / J  # ramp = 2 sqrt(V / J)
+
+
+def _floats_away(x: float, steps: int) -> float:
+    """The float that lies so many floats above x (below, if negative); x is not negative."""
+    return max(x + steps * math.ulp(x), 0.0)

@@ -1,0 +1,61 @@
+"""The house: data flows one way, the README keeps its promises, the notebooks run."""
+
+from __future__ import annotations
+
+import ast
+from pathlib import Path
+
+import pytest
+
+ROOT = Path(__file__).parents[1]
+
+
+def imported(path: Path) -> set[str]:
+    names: set[str] = set()
+    for node in ast.walk(ast.parse(path.read_text())):
+        if isinstance(node, ast.Import):
+            names |= {alias.name.split(".")[0] for alias in node.names}
+        elif isinstance(node, ast.ImportFrom):
+            names.add((node.module or "").split(".")[0])
+    return names
+
+
+@pytest.mark.parametrize(
+    ("package", "forbidden"),
+    [
+        ("formulations", {"metaheuristics", "compare", "matplotlib"}),
+        ("metaheuristics", {"formulations", "compare", "matplotlib", "numba", "casadi"}),
+    ],
+)
+def test_data_flows_one_way(package: str, forbidden: set[str]) -> None:
+    files = list((ROOT / package).rglob("*.py"))
+    assert files
+    for path in files:
+        assert not imported(path) & forbidden, path
+
+
+def test_the_check_shares_no_code_with_the_kernels() -> None:
+    assert "families" not in (ROOT / "formulations" / "motion" / "trajectory.py").read_text()
+
+
+def test_the_readme_shows_exactly_two_set_up_and_run_lines() -> None:
+    lines = [line for line in (ROOT / "README.md").read_text().splitlines() if "-m venv" in line]
+    assert len(lines) == 2
+    assert lines[0].endswith("-m compare.all")
+    assert lines[1].endswith("-m pytest")
+    assert all("-c constraints.txt" in line for line in lines)
+
+
+@pytest.mark.slow
+@pytest.mark.filterwarnings("default")  # of the notebook machinery, not ours
+@pytest.mark.parametrize("path", sorted((ROOT / "notebooks").glob("*.ipynb")), ids=lambda p: p.stem)
+def test_the_notebook_runs_from_a_clean_kernel(path: Path) -> None:
+    nbformat = pytest.importorskip("nbformat")
+    nbclient = pytest.importorskip("nbclient")
+    notebook = nbformat.read(path, as_version=4)
+    nbclient.NotebookClient(
+        notebook, timeout=180, resources={"metadata": {"path": str(ROOT)}}
+    ).execute()
+    outputs = [o for cell in notebook.cells if cell.cell_type == "code" for o in cell.outputs]
+    pictures = [output for output in outputs if "image/png" in output.get("data", {})]
+    assert len(pictures) >= 3
