@@ -41,11 +41,11 @@ from metaheuristics.swarms.mipso import (
     mutation_probability,
     printed_inertia,
     resolved_inertia,
-    tent_map,
-    tent_population,
 )
-from metaheuristics.swarms.pso import linear_inertia, pso, pso_1995, pso_linear
+from metaheuristics.swarms.particles import linear_inertia
+from metaheuristics.swarms.pso import pso, pso_1995, pso_linear
 from metaheuristics.swarms.random_search import random_search
+from metaheuristics.swarms.tent import tent_map, tent_population
 from metaheuristics.swarms.whale import whale
 
 pytestmark = pytest.mark.filterwarnings("error")

@@ -30,10 +30,10 @@ from formulations import load
 from metaheuristics import ALGORITHMS, NOT_REPRODUCIBLE, Task, minimise
 from metaheuristics.swarms.butterfly import butterfly, fragrance, grown
 from metaheuristics.swarms.issa import Blend, issa, weight
-from metaheuristics.swarms.mipso import tent_population
 from metaheuristics.swarms.mpso import linear_factor, mpso
 from metaheuristics.swarms.pso_zhang_2025 import adaptive_factors, pso_zhang_2025, three_others
 from metaheuristics.swarms.sparrow import Flock, forage, sparrow, sparrow_printed
+from metaheuristics.swarms.tent import tent_population
 from metaheuristics.swarms.whale_lu_2024 import inertia, whale_lu_2024
 
 pytestmark = pytest.mark.filterwarnings("error")
