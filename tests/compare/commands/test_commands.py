@@ -256,12 +256,27 @@ def problem(tmp_path_factory: pytest.TempPathFactory) -> Path:
         ["plan", "{}"],
         ["split", "{}", "--budget", "100", "--codings", "stretched"],
         ["papers", "--list"],
-        ["audit", "bagging"],
+        pytest.param(["audit", "bagging"], marks=pytest.mark.slow),
         ["speed", "--case", "{}", "--rounds", "1"],
         ["free_form_study", "--count", "1"],
-        ["proofs", "--count", "1", "--segments", "2", "--each", "1", "--jobs", "1", "--out", "{out}"],
+        pytest.param(
+            [
+                "proofs",
+                "--count",
+                "1",
+                "--segments",
+                "2",
+                "--each",
+                "1",
+                "--jobs",
+                "1",
+                "--out",
+                "{out}",
+            ],
+            marks=pytest.mark.slow,
+        ),
     ],
-    ids=lambda arguments: arguments[0],
+    ids=lambda arguments: str(arguments[0]),
 )
 def test_json_on_standard_output_is_strict_and_alone(
     arguments: list[str],
@@ -323,7 +338,7 @@ def test_a_problem_without_any_motion_ends_solve_with_2(
 
     climbed = ladder(load(str(problem)))
     rungs = {
-        key: replace(rung, status="failed", seconds=None, note="no room to move")
+        key: replace(rung, status=type(rung.status)("failed"), seconds=None, note="no room to move")
         if rung.kind == "upper" else rung
         for key, rung in climbed.rungs.items()
     }  # fmt: skip
