@@ -338,7 +338,7 @@ def test_a_problem_without_any_motion_ends_solve_with_2(
 
     climbed = ladder(load(str(problem)))
     rungs = {
-        key: replace(rung, status="failed", seconds=None, note="no room to move")
+        key: replace(rung, status=type(rung.status)("failed"), seconds=None, note="no room to move")
         if rung.kind == "upper" else rung
         for key, rung in climbed.rungs.items()
     }  # fmt: skip
