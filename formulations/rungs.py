@@ -12,7 +12,7 @@ import numpy as np
 
 from formulations.climb import Climb, Ladder
 from formulations.families import FAMILIES
-from formulations.motion.trajectory import check
+from formulations.motion.verdict import check
 from formulations.optima.family.optimum import each_joint_alone, family_optimum, longest_segment
 from formulations.optima.free_form import free_form
 from formulations.problem.problem import Problem

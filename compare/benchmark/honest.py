@@ -17,7 +17,7 @@ from compare.audit.motions import Motion
 from compare.audit.paper import Paper, Row
 from compare.audit.paper_file import PAPERS, load_papers
 from formulations import Problem
-from formulations.motion.trajectory import TOLERANCE
+from formulations.motion.verdict import TOLERANCE
 
 # the swarm that each paper proposes, resolved
 SWARMS: dict[str, str] = {

@@ -27,7 +27,7 @@ from compare.benchmark.run import machine
 from compare.commands import shared as commands
 from compare.studies.free_form_study import cases, random_problems
 from formulations import REFERENCES, Problem, Trajectory, check, free_form
-from formulations.motion.trajectory import TOLERANCE
+from formulations.motion.verdict import TOLERANCE
 from formulations.problem.arrays import Array
 
 _DEGREE = 3  # of Drake's splines: their jerk is constant on each piece, as that of the optimum is

@@ -25,7 +25,7 @@ from typing import Any
 import numpy as np
 
 from formulations.families import FAMILIES
-from formulations.motion.trajectory import TOLERANCE, check
+from formulations.motion.verdict import TOLERANCE, check
 from formulations.optima.family.optimum import FamilyOptimum, family_optimum, polished
 from formulations.problem.arrays import Array
 from formulations.problem.errors import InputError, NoFeasibleMotion

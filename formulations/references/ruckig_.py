@@ -12,7 +12,8 @@ from itertools import pairwise
 import numpy as np
 import ruckig
 
-from formulations.motion.trajectory import Trajectory, check
+from formulations.motion.trajectory import Trajectory
+from formulations.motion.verdict import check
 from formulations.problem.arrays import Array
 from formulations.problem.problem import Problem
 from formulations.proofs.rest_to_rest import end_to_end_bound

@@ -14,7 +14,8 @@ import numpy as np
 from numpy.typing import NDArray
 
 from formulations.families import FAMILIES, Family
-from formulations.motion.trajectory import Trajectory, Verdict, check
+from formulations.motion.trajectory import Trajectory
+from formulations.motion.verdict import Verdict, check
 from formulations.optima.family.nlp import SHORTEST, Exchange, Start, shortest_segments
 from formulations.problem.arrays import Array
 from formulations.problem.errors import InputError, NoFeasibleMotion

@@ -25,7 +25,8 @@ from typing import Any
 
 import numpy as np
 
-from formulations.motion.trajectory import TOLERANCE, Trajectory
+from formulations.motion.trajectory import Trajectory
+from formulations.motion.verdict import TOLERANCE
 from formulations.problem.arrays import Array
 from formulations.problem.errors import InputError
 from formulations.problem.problem import Problem

@@ -13,7 +13,8 @@ from typing import Any
 
 import numpy as np
 
-from formulations.motion.trajectory import Trajectory, check
+from formulations.motion.trajectory import Trajectory
+from formulations.motion.verdict import check
 from formulations.problem.arrays import Array
 from formulations.problem.problem import Problem
 from formulations.proofs.displacement import displacement_bound

@@ -12,6 +12,7 @@ from scipy.interpolate import BSpline
 from formulations import FAMILIES, Problem
 
 NAMES = list(FAMILIES)
+KNOWN = ("3-5-3", "4-3-4", "quintic", "b-spline-3", "b-spline-5")  # others were added later
 B_SPLINES = {"b-spline-3": 3, "b-spline-5": 5}
 DENSE = 20_001
 POWERS = np.arange(6)

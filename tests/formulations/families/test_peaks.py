@@ -8,6 +8,7 @@ from conftest import Array, powers_of_ten
 from hypothesis import given, settings
 from hypothesis import strategies as st
 from spline_oracles import (
+    KNOWN,
     NAMES,
     at,
     candidates,
@@ -164,7 +165,8 @@ def test_an_infinite_side_of_the_position_limits_never_counts(family: str) -> No
     for bounds in ([-np.inf, 1.1], [0.0, np.inf], [-np.inf, np.inf], [0.0, 1.1]):
         limits = Limits.of(1.0, position=[bounds], dof=1)
         excess.append(float(chosen.position_excess(Problem.of(points, limits, family=family), t)[0]))
-    assert excess[0] > 0.01  # it overshoots above
+    if family in KNOWN:
+        assert excess[0] > 0.01  # it overshoots above
     assert excess[1] < 1e-14  # and not below, but for rounding
     assert excess[2] == 0.0
     assert excess[3] == excess[0]
