@@ -27,6 +27,7 @@ from formulations.problem.problem import Problem
 _FIXED_EXCHANGES = 3  # rounds before the posed places follow their extremes
 _EXCHANGES = 40  # rounds of exchange before a start is given up as not converged
 _FREE, _VANISHED = 30.0, 1e-9  # log radius of the trust region: none, and when no step is left
+_LARGEST = 1e300  # rad; derivatives of larger coefficients overflow
 _CONVERGED = 1e-10  # relative excess of the exact peaks over the posed ones
 SHORTEST = 1e-10  # least duration of a segment, as a share of the displacement bound
 
@@ -83,6 +84,8 @@ class Exchange:
         extremes say little about splines far away.
         """
         centre = self._feasible(guess)
+        if not (np.isfinite(centre).all() and (centre > 0.0).all() and np.isfinite(centre.sum())):
+            return Start(guess, np.inf, "not finite (no stretch of the start keeps the limits)", 0)
         shortest = self._seconds(centre)
         radius, follow, status = _FREE, False, "not converged"
         for exchange in range(1, _EXCHANGES + 1):
@@ -232,20 +235,26 @@ class _Program:
 
     def solve(self, centre: Array, radius: float, follow: bool) -> tuple[Array, str]:
         """Durations of the local optimum within the trust region, and IPOPT's word for how it ended."""
+        spline = self.family.coefficients(self.problem, centre[None])[0]
+        if not np.abs(spline).max() < _LARGEST:
+            return np.full_like(centre, np.nan), "the spline leaves the range of floats"
         y = np.log(centre)
-        answer = self.solver(
-            x0=y,
-            p=self._extremes(centre, follow),
-            lbg=self.lower,
-            ubg=self.upper,
-            lbx=np.maximum(y - radius, self.floor),
-            ubx=np.minimum(y + radius, np.log(centre.sum() * 10.0)),
-        )
-        return np.exp(np.asarray(answer["x"]).ravel()), str(self.solver.stats()["return_status"])
+        most = np.minimum(y + radius, np.log(centre.sum() * 10.0))
+        # a duration that is below the floor by more than the radius rises by the radius alone
+        least = np.minimum(np.maximum(y - radius, self.floor), most)
+        try:
+            answer = self.solver(
+                x0=y, p=self._extremes(spline, follow), lbg=self.lower, ubg=self.upper, lbx=least, ubx=most
+            )
+            outcome = str(self.solver.stats()["return_status"])
+        except RuntimeError as error:  # CasADi's only exception: the solver refused the program
+            return np.full_like(centre, np.nan), str(error).strip().splitlines()[-1]
+        except np.linalg.LinAlgError as error:
+            return np.full_like(centre, np.nan), str(error)
+        return np.exp(np.asarray(answer["x"]).ravel()), outcome
 
-    def _extremes(self, durations: Array, follow: bool) -> Array:
+    def _extremes(self, spline: Array, follow: bool) -> Array:
         """Where the rows are posed: normalised time, and whether it follows its extreme."""
-        spline = self.family.coefficients(self.problem, durations[None])[0]
         found: dict[tuple[int, int, int], Array] = {}
         places = np.zeros((len(self.posed), 2))
         for row, (j, k, order, which) in enumerate(self.posed):
