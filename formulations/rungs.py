@@ -18,12 +18,13 @@ from formulations.optima.family.optimum import (
     FamilyOptimum,
     each_joint_alone,
     family_optimum,
-    longest_segment,
 )
+from formulations.optima.family.papers_rule import longest_segment
 from formulations.optima.free_form import FreeForm, free_form
 from formulations.problem.arrays import Array
 from formulations.problem.errors import NoFeasibleMotion, UnsupportedProblem
 from formulations.problem.problem import Problem
+from formulations.proofs.alternation import BoundStatus
 from formulations.proofs.every_motion.bound import FreeFormBound, free_form_bound
 from formulations.proofs.family import FamilyBound, family_bound
 from formulations.references import REFERENCES, Outcome, copp_on, toppra_on
@@ -251,11 +252,12 @@ class _Climb:
         )
         self.bound = bound
         whole = self.rungs["free_form_lower"].seconds or 0.0
-        status = bound.status.removeprefix("not applicable: ")
-        if bound.status.startswith("not applicable") and not whole > bound.seconds:
+        refused = bound.status is BoundStatus.NOT_APPLICABLE
+        status = bound.reason if refused else bound.outcome
+        if refused and not whole > bound.seconds:
             return Outcome.not_applicable(status)
         note = f"{bound.boxes} boxes, gap {bound.gap:.2g}" if bound.boxes else status
-        if bound.boxes and status != "proved":
+        if bound.boxes and bound.status is not BoundStatus.PROVED:
             note += f", {status}"
         if bound.upper < self.optimum.seconds * (1.0 - _GAP):
             note += f"; the proof found a faster motion, {bound.upper:.9g} s"
