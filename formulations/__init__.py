@@ -11,8 +11,8 @@ from formulations.optima.family.optimum import (
     FamilyOptimum,
     each_joint_alone,
     family_optimum,
-    longest_segment,
 )
+from formulations.optima.family.papers_rule import longest_segment
 from formulations.optima.free_form import FreeForm, Sensitivity, free_form
 from formulations.problem.conditions import Conditions
 from formulations.problem.errors import InputError, NoFeasibleMotion, UnsupportedProblem

@@ -96,7 +96,7 @@ def prove(task: Task) -> list[Cost]:
                 upper=bound.upper,
                 boxes=bound.boxes,
                 seconds=bound.runtime,
-                status=bound.status,
+                status=bound.outcome,
                 wrong_basin=alone > bound.upper * (1.0 + 1e-6),
             )
         )
