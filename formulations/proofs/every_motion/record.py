@@ -112,18 +112,15 @@ def _narrowed(frame: Frame, column: int) -> tuple[list[Any], float]:
 def rows_of(program: Program, multipliers: Array) -> list[list[Any]]:
     """Rows with their multipliers for SI units."""
     frame, cuts = program.frame, program.cuts
-    task, unit, matrix = frame.task, frame.typical, program.rows.matrix
+    task, unit = frame.task, frame.typical
     y = np.where(multipliers > _LEAST * np.abs(multipliers).max(initial=0.0), multipliers, 0.0)
+    y = y * program.rows.scale  # of the rows before they were scaled
     rows: list[list[Any]] = []
-
-    def scale(row: int, column: int) -> float:
-        """What a row was multiplied by, as this coefficient of it was 1."""
-        return abs(float(matrix[row, column]))
 
     if y[0]:
         rows.append(["h", _hex(y[0] / task.horizon)])
     for k in np.flatnonzero(y[1 : frame.K + 1]).tolist():
-        value = y[k + 1] * scale(k + 1, frame.inverse[k]) * unit[k]
+        value = y[k + 1] * unit[k]
         rows.append(["s", int(task.segments[k]), _hex(value)])
     for i in np.flatnonzero(y[program.n_fixed :]).tolist():
         row, kind, k, j = (
@@ -138,10 +135,10 @@ def rows_of(program: Program, multipliers: Array) -> list[list[Any]]:
         if kind in (TANGENT, HULL):
             t = float(np.clip(cuts.at[i, 0] / unit[k], frame.low[k], frame.high[k]) * unit[k])
             if kind == TANGENT:
-                value = y[row] * scale(row, frame.inverse[k]) * unit[k]
+                value = y[row] * unit[k]
                 rows.append(["t", segment, _hex(t), _hex(value)])
             else:
-                value = y[row] * scale(row, frame.square[k]) / unit[k] ** 2
+                value = y[row] / unit[k] ** 2
                 rows.append(["c", segment, _hex(t), _hex(value)])
         elif kind in (PRODUCT_AT_START, PRODUCT_AT_END):
             value = y[row] / (unit[k] * A)

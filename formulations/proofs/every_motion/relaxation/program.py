@@ -27,6 +27,14 @@ _ANSWERS = (
     highspy.HighsModelStatus.kInfeasible,
     highspy.HighsModelStatus.kTimeLimit,
 )
+_PLAIN = {"presolve": "choose", "simplex_scale_strategy": 2, "solver": "choose"}
+# what is tried in turn until there is an answer, each but the first from scratch
+_ATTEMPTS: tuple[dict[str, str | int], ...] = (
+    {},
+    {},
+    {"presolve": "off", "simplex_scale_strategy": 0},
+    {"presolve": "on", "simplex_scale_strategy": 4, "solver": "ipm"},
+)
 _SLACK = 1e-7  # a row this far from the point is not missed
 _CROWD = 3.0  # rows per variable, above which those are dropped
 
@@ -55,7 +63,8 @@ class Program:
         self.highs = highspy.Highs()
         for option, value in _OPTIONS.items():
             self.highs.setOptionValue(option, value)
-        self.highs.addVars(frame.size, frame.box[:, 0].copy(), frame.box[:, 1].copy())
+        self.refused = False  # whether HiGHS did not take a variable or a row
+        self._note(self.highs.addVars(frame.size, frame.box[:, 0].copy(), frame.box[:, 1].copy()))
         self.rows = frame.fixed()
         self.n_fixed = len(self.rows)
         self.cuts = cuts[:0]
@@ -66,13 +75,19 @@ class Program:
         """Pose more rows."""
         if len(cuts):
             rows = self.frame.of(cuts)
+            kept = rows.finite
+            rows = rows[kept]
             self._pass(rows)
-            self.rows, self.cuts = Rows.joined([self.rows, rows]), Cuts.joined([self.cuts, cuts])
+            self.rows = Rows.joined([self.rows, rows])
+            self.cuts = Cuts.joined([self.cuts, cuts[kept]])
+
+    def _note(self, status: highspy.HighsStatus) -> None:
+        self.refused |= status == highspy.HighsStatus.kError
 
     def _pass(self, rows: Rows) -> None:
         matrix = rows.matrix.copy()
         matrix.eliminate_zeros()
-        self.highs.addRows(
+        status = self.highs.addRows(
             len(rows),
             np.full(len(rows), -np.inf),
             rows.upper,
@@ -81,6 +96,7 @@ class Program:
             matrix.indices.astype(np.int32),
             matrix.data,
         )
+        self._note(status)
 
     def confine(self, box: Array) -> None:
         """Look only in a box (size, 2): for a point, not for a bound, which stays that of the frame."""
@@ -96,7 +112,7 @@ class Program:
         far[: self.n_fixed] = False
         gone = np.flatnonzero(far).astype(np.int32)
         self.highs.deleteRows(len(gone), gone)
-        self.rows = Rows(self.rows.matrix[~far], self.rows.upper[~far])
+        self.rows = self.rows[~far]
         self.cuts = self.cuts[~far[self.n_fixed :]]
 
     def solve(
@@ -120,17 +136,34 @@ class Program:
         return self._solution(cost, converged)
 
     def _run(self, deadline: float) -> highspy.HighsModelStatus:
-        """Solve from the last basis; from scratch if that goes wrong."""
+        """Solve from the last basis; where no answer comes of it, from scratch, in other ways."""
         status = highspy.HighsModelStatus.kNotset
-        for _ in range(2):
+        if self.refused:
+            return status
+        for attempt in _ATTEMPTS:
+            for option, value in attempt.items():
+                self.highs.setOptionValue(option, value)
             left = max(deadline - time.perf_counter(), 1e-3)
             self.highs.setOptionValue("time_limit", self.highs.getRunTime() + left)
             self.highs.run()
             status = self.highs.getModelStatus()
-            if status in _ANSWERS:
+            if status in _ANSWERS and self._answers(status):
                 break
             self.highs.clearSolver()
+        for option, value in _PLAIN.items():
+            self.highs.setOptionValue(option, value)
         return status
+
+    def _answers(self, status: highspy.HighsModelStatus) -> bool:
+        """Whether the multipliers that a status promises are there."""
+        if status == highspy.HighsModelStatus.kOptimal:
+            return len(self.highs.getSolution().row_dual) == len(self.rows)
+        return status != highspy.HighsModelStatus.kInfeasible or self._ray() is not None
+
+    def _ray(self) -> Array | None:
+        """Multipliers that prove the rows contradictory, (n_rows,); None if HiGHS has none."""
+        _, known, ray = self.highs.getDualRay()
+        return -np.array(ray) if known and len(ray) == len(self.rows) else None
 
     def _solution(self, cost: Array, converged: bool) -> Solution:
         status = self.highs.getModelStatus()
@@ -140,12 +173,12 @@ class Program:
             x, y = self.frame.box.mean(axis=1), np.zeros(len(self.rows))
         empty = False
         if status == highspy.HighsModelStatus.kInfeasible:
-            _, known, ray = self.highs.getDualRay()
-            if known:
-                y = -np.array(ray)
+            ray = self._ray()
+            if ray is not None:
+                y = ray
                 empty = self.certify(0.0 * cost, y) > 0.0
         bound = np.inf if empty else self.certify(cost, y)
-        name = self.highs.modelStatusToString(status)
+        name = "numbers out of range" if self.refused else self.highs.modelStatusToString(status)
         return Solution(name, x, y, bound, converged, empty)
 
     def certify(self, cost: Array, multipliers: Array) -> float:

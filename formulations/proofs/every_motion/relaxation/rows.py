@@ -26,10 +26,9 @@ from __future__ import annotations
 from dataclasses import dataclass
 
 import numpy as np
-from numpy.typing import NDArray
 from scipy.sparse import csr_array, vstack
 
-from formulations.problem.arrays import Array, Indices
+from formulations.problem.arrays import Array, Indices, Truths
 from formulations.proofs.every_motion.relaxation.cuts import (
     CRUISE,
     HULL,
@@ -51,29 +50,58 @@ from formulations.proofs.every_motion.relaxation.reach import (
 from formulations.proofs.every_motion.relaxation.task import DOWN, UP, Task
 
 _ALLOWANCE = 64.0 * 2.0**-53
+_LARGEST = 2.0**36  # coefficient left as it is: HiGHS refuses 1e15, and is in trouble long before
 
 
 @dataclass(frozen=True)
 class Rows:
-    """Rows matrix x <= upper: (m, size) and (m,)."""
+    """Rows matrix x <= upper: (m, size) and (m,).
+
+    scale: (m,), the power of two that each row of the equations above was multiplied by.
+    """
 
     matrix: csr_array
     upper: Array
+    scale: Array
 
     def __len__(self) -> int:
         return len(self.upper)
 
     def normal(self) -> Rows:
         """The same rows with largest coefficients between 1 and 2: powers of two do not round."""
-        largest = abs(self.matrix).max(axis=1).toarray().ravel()
-        scale = np.exp2(-np.floor(np.log2(largest)))
-        return Rows(csr_array(self.matrix.multiply(scale[:, None])), self.upper * scale)
+        return self._scaled(np.exp2(-np.floor(np.log2(self.largest))))
+
+    def in_range(self) -> Rows:
+        """The same rows, those with coefficients that a solver would refuse made ``normal``."""
+        largest = self.largest
+        high = (largest > _LARGEST) & np.isfinite(largest)
+        if not high.any():
+            return self
+        return self._scaled(np.where(high, np.exp2(-np.floor(np.log2(largest))), 1.0))
+
+    @property
+    def largest(self) -> Array:
+        """The largest coefficient of each row, (m,)."""
+        return np.asarray(abs(self.matrix).max(axis=1).toarray().ravel())
+
+    @property
+    def finite(self) -> Truths:
+        """Which rows have numbers only, (m,)."""
+        return np.asarray(np.isfinite(self.largest) & np.isfinite(self.upper))
+
+    def __getitem__(self, which: Indices | Truths) -> Rows:
+        return Rows(self.matrix[which], self.upper[which], self.scale[which])
+
+    def _scaled(self, scale: Array) -> Rows:
+        matrix = csr_array(self.matrix.multiply(scale[:, None]))
+        return Rows(matrix, self.upper * scale, self.scale * scale)
 
     @staticmethod
     def joined(blocks: list[Rows]) -> Rows:
         """Several blocks as one."""
         matrix = csr_array(vstack([block.matrix for block in blocks], format="csr"))
-        return Rows(matrix, np.concatenate([block.upper for block in blocks]))
+        upper, scale = (np.concatenate([getattr(b, name) for b in blocks]) for name in ("upper", "scale"))
+        return Rows(matrix, upper, scale)
 
 
 class Frame:
@@ -143,8 +171,7 @@ class Frame:
             blocks.append(self._of_kind(int(kind), cuts[which]))
             order.append(which)
         rows = Rows.joined(blocks)
-        back = np.argsort(np.concatenate(order))
-        return Rows(rows.matrix[back], rows.upper[back])
+        return rows[np.argsort(np.concatenate(order))].in_range()
 
     def _of_kind(self, kind: int, cuts: Cuts) -> Rows:
         k, j, sign = cuts.segment, cuts.joint, cuts.sign
@@ -215,10 +242,10 @@ class Frame:
         size = (np.abs(a) * self._sizes[where]).sum(axis=1) + np.abs(upper)
         starts = np.arange(0, a.size + 1, a.shape[1])
         matrix = csr_array((a.ravel(), where.ravel(), starts), shape=(len(upper), self.size))
-        return Rows(matrix, upper + _ALLOWANCE * size)
+        return Rows(matrix, upper + _ALLOWANCE * size, np.ones(len(upper)))
 
 
-def _require(sound: NDArray[np.bool_]) -> None:
+def _require(sound: Truths) -> None:
     """Rows that speak of a jerk need a limit of it."""
     if not sound.all():
         raise ValueError("a row needs a jerk limit where there is none")

@@ -35,7 +35,7 @@ def separate(frame: Frame, x: Array, tolerance: float) -> Cuts:
         proposed += [*_reach(frame, x, sign), *_stops(frame, x, sign)]
     cuts = Cuts.joined(proposed)
     rows = frame.of(cuts)
-    return cuts[rows.matrix @ x - rows.upper > tolerance]
+    return cuts[rows.finite & (rows.matrix @ x - rows.upper > tolerance)]
 
 
 def _durations(frame: Frame, x: Array) -> Cuts:
