@@ -196,7 +196,7 @@ class _Climb:
         if found.gap is not None:
             note += f", gap {found.gap:.2g}"
         if found.status != "proved":
-            note += f"; {found.status}"
+            note += f"; {found.ending}"
         # the references' own numbers hold as well, should they be the better ones
         simple = {key: self.rungs[key].seconds or 0.0 for key in ("displacement", "ruckig_end_to_end")}
         best = max(simple, key=lambda key: simple[key])

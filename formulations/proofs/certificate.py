@@ -6,7 +6,7 @@ lost.
                T2 <= tau, from the longest T1 down: ["p", lo, hi, joint, order, place, sign] a limit
                inside it, ["l", lo, hi] the last segment, for T1 in [lo, hi]
     horizon    null, or for every motion, whatever its family ("every-motion"): H [s], and events as
-               ``relaxation.record`` has them
+               ``every_motion.events`` has them
     events     in depth-first order (see ``log``), the first letter says which:
                ["T"] ["E"] ["S", k, value] ["L", rows] ["B", k, value, rows] ["A", k, value, rows]
                without rows: those of the event before

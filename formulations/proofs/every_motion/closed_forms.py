@@ -1,10 +1,10 @@
-"""Lower bounds in closed form: what no motion through the waypoints can do without.
+"""Lower bounds in closed form, which need no solver.
 
 Displacement: |d| / V on every segment. End to end: rest to rest from the first waypoint to the last.
-One by one: each segment by itself, the first from rest, the last to rest, the others at top speed.
+Segment: each segment by itself, the first from rest, the last to rest, the others at top speed.
 
-Every formula is a few roundings of sums and products of positive numbers, 1e-14 at most in relative
-size, and continuous from case to case; ``SAFE`` is far beyond that.
+Each formula is a few sums and products of positive numbers, with a relative rounding error of at most
+1e-14, and is continuous across its cases. ``SAFE`` is far larger.
 """
 
 from __future__ import annotations
@@ -21,19 +21,46 @@ SAFE = 1e-12
 
 
 def displacement_bound(problem: Problem) -> float:
-    """Sum over the segments of displacement at top speed [s]."""
+    """Sum displacement over top speed over the segments.
+
+    Parameters
+    ----------
+    problem : Problem
+
+    Returns
+    -------
+    float [s]
+    """
     each = (np.abs(problem.displacements) / problem.limits.velocity).max(axis=1)
     return float(each.sum()) * (1.0 - SAFE)
 
 
 def end_to_end_bound(problem: Problem) -> float:
-    """Rest to rest from the first to the last waypoint, joint by joint [s]."""
+    """Compute the time from rest to rest between the first and the last waypoint, of the slowest joint.
+
+    Parameters
+    ----------
+    problem : Problem
+
+    Returns
+    -------
+    float [s]
+    """
     distances = np.abs(problem.waypoints[-1] - problem.waypoints[0])
     return max(_rest_to_rest(problem, j, d) for j, d in enumerate(distances)) * (1.0 - SAFE)
 
 
 def least_durations(problem: Problem) -> Array:
-    """What each segment takes by itself, (n_segments,) [s]."""
+    """Compute what each segment takes at least, by itself.
+
+    Parameters
+    ----------
+    problem : Problem
+
+    Returns
+    -------
+    Array, shape (n_segments,) [s]
+    """
     each = (np.abs(problem.displacements) / problem.limits.velocity).max(axis=1)
     if problem.n_segments == 1:
         return np.array([end_to_end_bound(problem)])
@@ -43,10 +70,18 @@ def least_durations(problem: Problem) -> Array:
     return np.asarray(each * (1.0 - SAFE))
 
 
-def stop_and_go(problem: Problem) -> Array:
-    """Rest to rest on each segment, (n_segments,) [s], rounded up.
+def stop_and_go_durations(problem: Problem) -> Array:
+    """Compute the time from rest to rest on each segment, rounded up.
 
-    A motion, unless a joint's velocity alone is limited.
+    This is a motion's time, unless a joint has a velocity limit only.
+
+    Parameters
+    ----------
+    problem : Problem
+
+    Returns
+    -------
+    Array, shape (n_segments,) [s]
     """
     each = [
         max(_rest_to_rest(problem, j, float(d)) for j, d in enumerate(row))
