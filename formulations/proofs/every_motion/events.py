@@ -37,8 +37,7 @@ from formulations.proofs.every_motion.relaxation.tightening import tighten
 Event = list[Any]
 _ROUNDS, _TOLERANCE = 100, 1e-9  # of cuts
 _STEPS = 30  # of narrower boxes
-_LEAST = 1e-13  # multipliers below this share of the largest are left out
-_MARGIN = 1e-10  # relative, for the checker's own rounding of boxes and rows
+_MARGIN = 1e-10  # of the bound, for the checker's own boxes and rows
 
 
 def bound_with_events(
@@ -73,7 +72,7 @@ def bound_with_events(
     best: tuple[float, list[Event]] = (0.0, [])
     for _ in range(_STEPS):
         frame = Frame(relaxed, boxes, units)
-        program = LinearProgram(frame, cuts)
+        program = LinearProgram(frame, cuts, for_checker=True)
         solution = program.solve(frame.cost, rounds=_ROUNDS, tolerance=_TOLERANCE, deadline=deadline)
         if solution.empty:
             return horizon, [*narrowing, ["E", _rows_of(program, solution.multipliers)]]
@@ -116,8 +115,7 @@ def _rows_of(program: LinearProgram, multipliers: Array) -> list[Event]:
     """Rows with their multipliers for SI units."""
     frame, cuts = program.frame, program.cuts
     relaxed, unit = frame.relaxed, frame.typical
-    y = np.where(multipliers > _LEAST * np.abs(multipliers).max(initial=0.0), multipliers, 0.0)
-    y = y * program.rows.scale  # of the rows before they were scaled
+    y = np.maximum(multipliers, 0.0) * program.rows.scale  # for the rows before they were scaled
     rows: list[Event] = []
     if y[0]:
         rows.append(["h", _hex(y[0] / relaxed.horizon)])

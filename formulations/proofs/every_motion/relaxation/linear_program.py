@@ -43,6 +43,8 @@ _ATTEMPTS: tuple[dict[str, str | int], ...] = (
     {"presolve": "off", "simplex_scale_strategy": 0},
     {"presolve": "on", "simplex_scale_strategy": 4, "solver": "ipm"},
 )
+_LEAST = 1e-13  # multipliers below this share of the largest are not written down
+_CHECKERS_ROUNDING = 1e-14  # of the sum of all terms' moduli
 _FAR = 1e-7  # a row with more slack than this may be dropped
 _CROWD = 3.0  # rows per variable above which rows are dropped
 
@@ -105,7 +107,7 @@ class LinearProgram:
         Of the other rows, in their order.
     """
 
-    def __init__(self, frame: Frame, cuts: Cuts) -> None:
+    def __init__(self, frame: Frame, cuts: Cuts, *, for_checker: bool = False) -> None:
         """Pose the program.
 
         Parameters
@@ -113,8 +115,11 @@ class LinearProgram:
         frame : Frame
         cuts : Cuts
             The rows to begin with, besides those that the frame always has.
+        for_checker : bool
+            Whether the bounds must hold in the rounding of an independent checker too: tiny multipliers
+            are then left out, and each bound is lowered by more than the checker's rounding.
         """
-        self.frame = frame
+        self.frame, self._for_checker = frame, for_checker
         self.highs = highspy.Highs()
         for option, value in _OPTIONS.items():
             self.highs.setOptionValue(option, value)
@@ -256,14 +261,27 @@ class LinearProgram:
         x, y = np.array(solution.col_value), -np.array(solution.row_dual)
         if len(x) != self.frame.size or len(y) != len(self.rows):
             x, y = self.frame.box.mean(axis=1), np.zeros(len(self.rows))
-        empty = False
         ray = self._ray() if status == LPStatus.INFEASIBLE else None
-        if ray is not None:
-            y = ray
-            empty = self.certify(0.0 * cost, y) > 0.0
-        bound = np.inf if empty else self.certify(cost, y)
+        y = self._kept(y if ray is None else ray)
+        empty = ray is not None and self._bound(0.0 * cost, y) > 0.0
+        bound = np.inf if empty else self._bound(cost, y)
         reason = self.highs.modelStatusToString(self.highs.getModelStatus())
         return LPSolution(status, reason, x, y, bound, converged, empty)
+
+    def _kept(self, y: Array) -> Array:
+        """The multipliers that a proof keeps."""
+        if not self._for_checker:
+            return y
+        return np.where(y > _LEAST * np.abs(y).max(initial=0.0), y, 0.0)
+
+    def _bound(self, cost: Array, y: Array) -> float:
+        """The certified bound, lowered for a checker if there is one."""
+        bound = self.certify(cost, y)
+        if not self._for_checker:
+            return bound
+        columns = np.abs(cost) + abs(self.rows.matrix).T @ y
+        terms = columns @ np.abs(self.frame.box).max(axis=1) + y @ np.abs(self.rows.upper)
+        return bound - _CHECKERS_ROUNDING * float(terms)
 
     def certify(self, cost: Array, multipliers: Array) -> float:
         """Compute a safe lower bound of the cost from any multipliers.

@@ -10,6 +10,7 @@ from formulations.problem.arrays import Array, Indices, Truths
 from formulations.problem.problem import Problem
 
 UP, DOWN = 1.0 + 2.0**-50, 1.0 - 2.0**-50  # cover the rounding of two operations
+_WIDER = 1.001  # position slack that is proved, per slack allowed: covers rounding, and checkers ask for it
 
 
 @dataclass(frozen=True)
@@ -68,14 +69,14 @@ class RelaxedProblem:
         horizon : float [s]
             The time H.
         slack : float, optional [rad]
-            Distance outside the position limits that still counts as inside; by default that of the
-            problem.
+            Distance outside the position limits that still counts as inside; by default a thousandth
+            more than the problem's.
 
         Returns
         -------
         RelaxedProblem
         """
-        slack = problem.position_slack if slack is None else slack
+        slack = problem.position_slack * _WIDER if slack is None else slack
         limits = problem.limits
         moves = (problem.displacements != 0.0).any(axis=0)
         limited = np.isfinite(limits.acceleration) | np.isfinite(limits.jerk)
