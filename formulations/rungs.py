@@ -92,7 +92,7 @@ def _free_form_lower(climb: Climb) -> Outcome:
     if found.gap is not None:
         note += f", gap {found.gap:.2g}"
     if found.status != "proved":
-        note += f"; {found.status}"
+        note += f"; {found.ending}"
     # the references' own numbers hold as well, should they be the better ones
     simple = {key: climb.seconds(key) or 0.0 for key in ("displacement", "ruckig_end_to_end")}
     best = max(simple, key=lambda key: simple[key])

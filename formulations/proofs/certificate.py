@@ -5,7 +5,7 @@
                T2 <= tau, from the longest T1 down: ["p", lo, hi, joint, order, place, sign] a limit
                inside it, ["l", lo, hi] the last segment, for T1 in [lo, hi]
     horizon    null, or for a bound of every motion ("every-motion"): H [s]; its events are those of
-               ``every_motion``
+               ``every_motion.events``
     events     in depth-first order (see ``events``), the first letter says which:
                ["T"] ["E"] ["S", k, value] ["L", rows] ["B", k, value, rows] ["A", k, value, rows]
                an event without rows has those of the event before; the quintic's are in ``quintic.bound``

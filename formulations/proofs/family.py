@@ -32,7 +32,7 @@ from formulations.proofs.alternation import Alternation, BoundStatus, verified
 from formulations.proofs.certificate import certificate_of, certificate_of_proof
 from formulations.proofs.displacement import exceeded_time
 from formulations.proofs.domain import data_of
-from formulations.proofs.every_motion.velocity_acceleration import every_motion
+from formulations.proofs.every_motion.velocity_acceleration import velocity_acceleration_bound
 from formulations.proofs.four_three_four import bound as four_three_four
 from formulations.proofs.proof import Prover
 from formulations.proofs.quintic import bound as quintic
@@ -191,7 +191,7 @@ def family_bound(
     except NoFeasibleMotion as failure:
         return answer(simple, None, np.inf, BoundStatus.NOT_APPLICABLE, str(failure))
     if chosen.name not in PROVERS:
-        motions = every_motion(problem)
+        motions = velocity_acceleration_bound(problem)
         events = motions.events(problem.moving_joints) if motions.seconds > simple else []
         seconds = max(simple, motions.seconds)
         found, upper = verified(problem, found)
