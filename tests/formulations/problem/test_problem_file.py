@@ -239,6 +239,31 @@ def test_a_long_wrong_value_does_not_flood_the_line(key: str) -> None:
     assert len(message(text)) < 400
 
 
+@pytest.mark.parametrize(
+    ("text", "nearest"),
+    [
+        (GOOD.replace("name", "nmae"), "name"),
+        (swapped("waypoints", "waypoint"), "waypoints"),
+        (swapped("jerk", "jrek"), "jerk"),
+        (swapped("velocity", "velocities"), "velocity"),
+        (
+            'arm = "ur5"\n[limits]\nvelocity = 1\n[[pose]]\npositon = [0, 0, 1]\nrpy = [0, 0, 0]',
+            "position",
+        ),
+    ],
+)
+def test_an_unknown_key_is_refused_at_every_depth_with_the_nearest_known_one(
+    text: str, nearest: str
+) -> None:
+    assert f"did you mean {nearest}?" in message(text)
+
+
+def test_an_unknown_key_that_is_near_to_none_gets_the_list() -> None:
+    line = message("quux = 1\n" + GOOD)
+    assert "did you mean" not in line
+    assert "known: name, title" in line
+
+
 # --- position limits and what print rounds away ---------------------------------------------------
 
 
