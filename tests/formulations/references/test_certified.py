@@ -9,7 +9,7 @@ from math import isinf
 import numpy as np
 import pytest
 from conftest import problems
-from formulations.proofs.every_motion.search import Search
+from formulations.proofs.every_motion.horizons import HorizonSearch
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
@@ -102,7 +102,7 @@ def holds(problem: Problem) -> None:
     assert outcome.seconds is not None
     assert Fraction(outcome.seconds) <= exact
     assert Fraction(float(np.nextafter(outcome.seconds, np.inf))) > exact
-    assert Fraction(Search(problem, None, None).bounds["displacement"]) <= exact
+    assert Fraction(HorizonSearch(problem, None, None).bounds["displacement"]) <= exact
 
 
 @pytest.mark.parametrize("case", CASES)
