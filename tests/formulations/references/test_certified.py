@@ -9,11 +9,11 @@ from math import isinf
 import numpy as np
 import pytest
 from conftest import problems
-from formulations.proofs.every_motion.horizons import HorizonSearch
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
 from formulations import CASES, REFERENCES, Problem, load
+from formulations.proofs.every_motion.horizons import HorizonSearch
 
 
 def exact_displacement(problem: Problem) -> Fraction:
