@@ -5,13 +5,14 @@ from __future__ import annotations
 from formulations.climb import Ladder
 from formulations.families import FAMILIES
 from formulations.motion.motion_file import read_motion, write_motion
-from formulations.motion.trajectory import Trajectory, Verdict, check
+from formulations.motion.trajectory import Trajectory
+from formulations.motion.verdict import Verdict, check
 from formulations.optima.family.optimum import (
     FamilyOptimum,
     each_joint_alone,
     family_optimum,
-    longest_segment,
 )
+from formulations.optima.family.papers_rule import longest_segment
 from formulations.optima.free_form import FreeForm, Sensitivity, free_form
 from formulations.problem.conditions import Conditions
 from formulations.problem.errors import InputError, NoFeasibleMotion, UnsupportedProblem

@@ -9,7 +9,8 @@ from collections.abc import Callable, Mapping
 from dataclasses import dataclass, field
 from typing import Any
 
-from formulations.motion.trajectory import Trajectory, check
+from formulations.motion.trajectory import Trajectory
+from formulations.motion.verdict import check
 from formulations.optima.family.optimum import FamilyOptimum
 from formulations.optima.free_form import FreeForm
 from formulations.problem.arrays import Array

@@ -1,15 +1,16 @@
-"""Compiled formulas, and how a first run gets by without the compiler.
+"""Compilation by numba, and functions that are interpreted until compiling them pays.
 
-The compiler takes ten seconds for what a small proof does in a hundredth; its code is kept on disk, so
-only a first run pays. ``Late`` is the ski-rental rule: interpret a function until the time spent is
-worth a compilation, then compile it. It is for functions of + - * / and square roots, which give the
-same bits either way.
+The compiler takes ten seconds for a proof that runs in a hundredth of a second. Its code is kept on disk, so
+that only a first run pays. ``Late`` follows the ski-rental rule: it interprets a function until the time
+spent equals that of a compilation, and then compiles it. It is for functions of + - * / and square roots,
+which give the same bits either way.
 """
 
 from __future__ import annotations
 
 import time
 from collections.abc import Callable
+from functools import cached_property
 from pathlib import Path
 from types import FunctionType
 from typing import Any
@@ -25,7 +26,18 @@ _PATIENCE = 5.0  # s of interpretation that are worth a compilation
 
 
 def interpreted(function: Any) -> Callable[..., Any]:
-    """A compiled function, and the compiled functions it calls, as plain Python."""
+    """Return a compiled function, and the compiled functions that it calls, as plain Python.
+
+    Parameters
+    ----------
+    function : callable
+        What ``compiled`` returned.
+
+    Returns
+    -------
+    callable
+        With the same arguments.
+    """
     source = function.py_func if isinstance(function, Dispatcher) else function
     scope = dict(source.__globals__)
     for name in source.__code__.co_names:
@@ -35,19 +47,26 @@ def interpreted(function: Any) -> Callable[..., Any]:
 
 
 class Late:
-    """A compiled function that is interpreted until compiling it pays."""
+    """A compiled function that is interpreted until compiling it pays.
+
+    Parameters
+    ----------
+    function : callable
+        What ``compiled`` returned.
+    """
 
     def __init__(self, function: Any) -> None:
         self._compiled = function
-        self._plain: Callable[..., Any] | None = None
         self._spent = np.inf if _on_disk(function) else 0.0
 
+    @cached_property
+    def _plain(self) -> Callable[..., Any]:
+        return interpreted(self._compiled)
+
     def __call__(self, *arguments: Any) -> Any:
-        """The function's answer."""
+        """Call the function."""
         if self._spent >= _PATIENCE:
             return self._compiled(*arguments)
-        if self._plain is None:
-            self._plain = interpreted(self._compiled)
         started = time.perf_counter()
         with np.errstate(all="ignore"):
             answer = self._plain(*arguments)
@@ -56,7 +75,7 @@ class Late:
 
 
 def _on_disk(function: Any) -> bool:
-    """Whether an earlier run left machine code behind; if it is out of date, it is made again."""
+    """Whether an earlier run left machine code behind; the compiler replaces code that is out of date."""
     if not isinstance(function, Dispatcher):
         return True  # compilation is switched off
     folder = Path(str(function.stats.cache_path))

@@ -12,7 +12,7 @@ from dataclasses import dataclass, replace
 
 import numpy as np
 
-from formulations.motion.trajectory import QUANTITIES
+from formulations.motion.verdict import QUANTITIES
 from formulations.optima.free_form import FreeForm, free_form
 from formulations.problem.arrays import Array
 from formulations.problem.problem import Limits, Problem

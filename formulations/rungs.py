@@ -12,12 +12,14 @@ import numpy as np
 
 from formulations.climb import Climb, Ladder
 from formulations.families import FAMILIES
-from formulations.motion.trajectory import check
-from formulations.optima.family.optimum import each_joint_alone, family_optimum, longest_segment
+from formulations.motion.verdict import check
+from formulations.optima.family.optimum import each_joint_alone, family_optimum
+from formulations.optima.family.papers_rule import longest_segment
 from formulations.optima.free_form import free_form
 from formulations.problem.problem import Problem
+from formulations.proofs.alternation import BoundStatus
 from formulations.proofs.every_motion.bound import free_form_bound
-from formulations.proofs.family import ProofStatus, family_bound
+from formulations.proofs.family import family_bound
 from formulations.references.copp_ import COPP_FAMILY_PATH
 from formulations.references.displacement import DISPLACEMENT
 from formulations.references.reference import Kind, Outcome, Rung, Takes
@@ -90,7 +92,7 @@ def _free_form_lower(climb: Climb) -> Outcome:
     if found.gap is not None:
         note += f", gap {found.gap:.2g}"
     if found.status != "proved":
-        note += f"; {found.status}"
+        note += f"; {found.ending}"
     # the references' own numbers hold as well, should they be the better ones
     simple = {key: climb.seconds(key) or 0.0 for key in ("displacement", "ruckig_end_to_end")}
     best = max(simple, key=lambda key: simple[key])
@@ -148,11 +150,12 @@ def _family_lower(climb: Climb) -> Outcome:
     )
     climb.bound = bound
     whole = climb.seconds("free_form_lower") or 0.0
-    if bound.status is ProofStatus.NOT_APPLICABLE and not whole > bound.seconds:
+    refused = bound.status is BoundStatus.NOT_APPLICABLE
+    if refused and not whole > bound.seconds:
         return Outcome.not_applicable(bound.reason)
-    state = bound.reason if bound.status is ProofStatus.NOT_APPLICABLE else bound.state
+    state = bound.reason if refused else bound.outcome
     note = f"{bound.boxes} boxes, gap {bound.gap:.2g}" if bound.boxes else state
-    if bound.boxes and bound.status is not ProofStatus.PROVED:
+    if bound.boxes and bound.status is not BoundStatus.PROVED:
         note += f", {state}"
     if bound.upper < climb.optimum.seconds * (1.0 - _GAP):
         note += f"; the proof found a faster motion, {bound.upper:.9g} s"

@@ -7,8 +7,8 @@ import time
 import numpy as np
 
 from formulations import FamilyBound, FamilyOptimum, Limits, Problem, family_bound
-from formulations.optima.family.nlp import shortest_segments
-from formulations.optima.family.optimum import polished
+from formulations.optima.family.optimum import local_optimum
+from formulations.optima.family.program import duration_scales
 from formulations.problem.arrays import Array
 from formulations.proofs.family import PROVERS
 from formulations.proofs.proof import Proof
@@ -36,8 +36,8 @@ def minimum(problem: Problem) -> FamilyBound:
 
 def _start(problem: Problem) -> FamilyOptimum | None:
     """A motion to begin with. One start will do: where there is a better basin, the proof finds it."""
-    shortest = shortest_segments(problem)
-    local = polished(problem, np.sqrt(shortest * shortest.max()))
+    scales = duration_scales(problem)
+    local = local_optimum(problem, np.sqrt(scales * scales.max()))
     if not np.isfinite(local.seconds):
         return None
     return FamilyOptimum(problem, problem.family, local.durations, (local,))

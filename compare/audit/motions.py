@@ -14,7 +14,7 @@ from compare.audit.peaks import Peaks, peaks
 from compare.audit.printed import halves, values
 from compare.audit.ranged import Undecided
 from formulations import FAMILIES, FamilyBound, Problem, Verdict, check
-from formulations.motion.trajectory import QUANTITIES, TOLERANCE
+from formulations.motion.verdict import QUANTITIES, TOLERANCE
 from formulations.problem.arrays import Array
 
 ROOTS = np.array([1.0, 0.5, 1.0 / 3.0])[:, None]  # a stretch by f divides derivative k by f^k

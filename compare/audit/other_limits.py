@@ -16,7 +16,7 @@ from compare.audit.minima import crossing_times, impossible, minimum, with_limit
 from compare.audit.motions import Motion, limits_told
 from compare.audit.paper import Paper, Total
 from formulations import FamilyBound, Problem
-from formulations.motion.trajectory import QUANTITIES
+from formulations.motion.verdict import QUANTITIES
 from formulations.problem.arrays import Array
 
 _SLOWER = 0.02  # at least so far above the optimum of the stated limits

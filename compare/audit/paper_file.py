@@ -15,7 +15,7 @@ from compare.audit.printed import halves, printed, row, values
 from formulations import FAMILIES, InputError
 from formulations.arms import ARMS
 from formulations.arms.arm import METRES
-from formulations.motion.trajectory import QUANTITIES
+from formulations.motion.verdict import QUANTITIES
 from formulations.problem.arrays import Array
 
 PAPERS: tuple[str, ...] = tuple(

@@ -16,7 +16,7 @@ import numpy as np
 
 from compare.audit.ranged import Ranged
 from formulations import FAMILIES, Problem
-from formulations.motion.trajectory import Extremes
+from formulations.motion.extremes import Extremes
 from formulations.problem.arrays import Array
 
 _DUST = 1e-11  # relative: rounding of the exact extremes and of the Bernstein weights

@@ -9,7 +9,7 @@ import numpy as np
 from compare.audit.findings import Finding, amount, number
 from compare.audit.motions import ROOTS, Motion
 from compare.audit.other_limits import in_force
-from formulations.motion.trajectory import QUANTITIES, TOLERANCE
+from formulations.motion.verdict import QUANTITIES, TOLERANCE
 
 
 def rule_findings(motion: Motion, rows: Sequence[Motion]) -> list[Finding]:

@@ -12,7 +12,7 @@ from compare.audit.minima import crossing_times
 from compare.audit.motions import ROOTS, Motion, joint_of, limits_told
 from compare.audit.other_limits import fits_other_limits
 from compare.audit.printed import halves, values
-from formulations.motion.trajectory import QUANTITIES, TOLERANCE
+from formulations.motion.verdict import QUANTITIES, TOLERANCE
 from formulations.problem.arrays import Array
 
 

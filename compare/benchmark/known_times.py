@@ -18,7 +18,7 @@ from compare.benchmark.ladders import LadderRecord
 from compare.benchmark.rows import Row
 from compare.benchmark.statistics import median, times_of
 from formulations import Problem
-from formulations.motion.trajectory import TOLERANCE
+from formulations.motion.verdict import TOLERANCE
 
 # the swarm that each paper proposes, in the reading that can be meant
 SWARMS: dict[str, str] = {

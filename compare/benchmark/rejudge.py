@@ -20,7 +20,7 @@ from compare.benchmark.provenance import problem_digest
 from compare.benchmark.rows import Row, RowStatus, RunKey, durations_of, relative_gap
 from compare.benchmark.statistics import bound_of
 from formulations import FAMILIES, InputError, Problem, Trajectory, check
-from formulations.motion.trajectory import TOLERANCE
+from formulations.motion.verdict import TOLERANCE
 from formulations.problem.arrays import Array, Truths
 
 _ROUNDING = 1e-12  # relative; the sum of the durations on another machine

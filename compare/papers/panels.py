@@ -15,7 +15,7 @@ from matplotlib.lines import Line2D
 from compare.report.figures import samples
 from compare.report.style import BLACK, GREY, styled
 from formulations import Problem, Trajectory
-from formulations.motion.trajectory import QUANTITIES, TOLERANCE
+from formulations.motion.verdict import QUANTITIES, TOLERANCE
 
 _PER = ("", "/s", "/s²", "/s³")
 

@@ -7,7 +7,7 @@ from typing import Any
 from compare.audit.motions import Motion
 from compare.audit.paper import Paper, Row
 from formulations import Verdict
-from formulations.motion.trajectory import QUANTITIES
+from formulations.motion.verdict import QUANTITIES
 
 
 def printed(paper: Paper, row: Row) -> dict[str, Any]:

@@ -19,7 +19,7 @@ import numpy as np
 from scipy.optimize import minimize
 
 from formulations import REFERENCES, Problem, Trajectory, check, free_form
-from formulations.motion.trajectory import TOLERANCE
+from formulations.motion.verdict import TOLERANCE
 from formulations.problem.arrays import Array
 
 _DEGREE = 3  # of Drake's splines: their jerk is constant on each piece, as that of the optimum is

@@ -114,7 +114,7 @@ def prove(task: ProofTask) -> list[ProofCost]:
                 upper=bound.upper,
                 boxes=bound.boxes,
                 seconds=bound.runtime,
-                status=bound.status,
+                status=bound.outcome,
                 wrong_basin=alone > bound.upper * (1.0 + 1e-6),
             )
         )

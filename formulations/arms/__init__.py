@@ -1,4 +1,10 @@
-"""The papers' arms: forward kinematics, inverse kinematics with all branches, reach."""
+"""The arms of the papers: forward kinematics, inverse kinematics with all solutions, and reach.
+
+arm          the printed DH table of each arm beside the one that fits its paper's own numbers (NAME.toml)
+kinematics   forward kinematics, Jacobian and poses
+inverse      joint positions for a pose
+reach        the workspace, and how far a pose is out of reach
+"""
 
 from __future__ import annotations
 

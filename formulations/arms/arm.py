@@ -29,8 +29,17 @@ METRES = {"m": 1.0, "mm": 1e-3}
 class Arm:
     """An arm with rotary joints.
 
-    chain: the resolved table. printed: the paper's, as it stands there. position: joint limits (dof, 2)
-    [rad], infinite where none are known. notes: what was resolved, and how it fits.
+    Attributes
+    ----------
+    name, title, source : str
+    notes : str
+        How the printed table was read, and how well the reading fits.
+    chain : Chain
+        The DH table as read.
+    printed : Chain
+        The DH table as the paper prints it.
+    position : Array, shape (dof, 2)
+        Joint limits [rad], infinite where none are known.
     """
 
     name: str
@@ -49,7 +58,23 @@ class Arm:
 
 @cache
 def load_arm(name: str) -> Arm:
-    """The shipped arm of that name; InputError with the known names if there is none."""
+    """Load a shipped arm.
+
+    Parameters
+    ----------
+    name : str
+        One of ``ARMS``: sr4c (Wang 2025), bagging (Li 2022), ur5 (Zhou 2025), z1 (Lu & Wang 2024), cobot
+        (Zhang 2025).
+
+    Returns
+    -------
+    Arm
+
+    Raises
+    ------
+    InputError
+        If there is no arm of that name; the message lists the names.
+    """
     if name not in ARMS:
         raise InputError(f"arm: {name!r} is not known (known: {', '.join(ARMS)})")
     data = tomllib.loads((files("formulations.arms") / f"{name}.toml").read_text("utf-8"))

@@ -1,9 +1,9 @@
-"""Inverse kinematics with all branches: EAIK's closed forms, each polished on forward kinematics.
+"""Inverse kinematics with all solutions: EAIK's closed forms, each polished by Newton's method.
 
-The closed forms divide by zero at a singular pose (two axes in line), where single solutions become a
-continuum. There the pose is moved by a hair, solved, and the solutions are polished back onto it;
-of a continuum that leaves some members, and the one nearest to the last waypoint is found by moving
-along it (000 sec. 1 and 001 eq. 2-6 stop at this case).
+The closed forms divide by zero at a singular pose (two axes in line), where the solutions form a continuum.
+There a pose nearby is solved, and its solutions are polished back onto the pose asked for. This gives some
+members of the continuum; the one nearest to the last waypoint is found by moving along it. The papers do
+not treat this case (Wang 2025, sec. 1; Li 2022, eq. 2-6).
 """
 
 from __future__ import annotations
@@ -23,18 +23,32 @@ from formulations.problem.problem import POSITION_TOLERANCE
 _EXACT = 1e-9  # m and rad that a solution may miss its pose by
 _LOOSE = 1e-3  # of EAIK's own, before polishing
 _SINGULAR = 1e-4  # least singular value of the Jacobian (m/rad and 1) of a regular solution
-_HAIR = 1e-3  # m and rad that a singular pose is moved by
+_NEARBY = 1e-3  # m and rad between a singular pose and the one that is solved in its place
 _SAME = 1e-6  # rad between solutions that count as one
 _TURN = 2.0 * np.pi
 
 
 def branches(arm: Arm, pose: Array) -> Array:
-    """All joint positions (m, 6) [rad] within +-pi that put the tool at a pose (4, 4) [m].
+    """Find all joint positions within +-pi that put the tool at a pose; joint limits are ignored.
 
-    Joint limits are ignored. Of a continuum of solutions, some members. Raises InputError if EAIK is
-    missing.
+    Parameters
+    ----------
+    arm : Arm
+        An arm with six joints.
+    pose : Array, shape (4, 4)
+        Homogeneous transform of the tool, lengths in m.
+
+    Returns
+    -------
+    Array, shape (m, 6)
+        Solutions [rad]; of a continuum, some members.
+
+    Raises
+    ------
+    InputError
+        If EAIK is not installed.
     """
-    # EAIK drops a singular solution without a word, so a moved pose is always asked too
+    # EAIK drops singular solutions without notice, so a pose nearby is always solved too
     exact = _solutions(arm, pose, pose) + _solutions(arm, pose, _moved(pose, 0, 1.0))
     if not exact or any(_is_singular(arm, q) for q in exact):
         for axis in range(6):
@@ -48,10 +62,28 @@ def branches(arm: Arm, pose: Array) -> Array:
 
 
 def nearest(arm: Arm, pose: Array, near: Array) -> Array:
-    """The joint positions (6,) [rad] for a pose within the joint limits that are nearest to ``near``.
+    """Find the joint positions for a pose, within the joint limits, that are nearest to others.
 
-    Whole turns are added where the limits allow. Raises OutOfReach, which says how far the pose is out
-    of reach, of limits or of both.
+    Whole turns are added where the limits allow it.
+
+    Parameters
+    ----------
+    arm : Arm
+        An arm with six joints.
+    pose : Array, shape (4, 4)
+        Homogeneous transform of the tool, lengths in m.
+    near : Array, shape (6,)
+        Joint positions to stay near to [rad].
+
+    Returns
+    -------
+    Array, shape (6,)
+        Joint positions [rad].
+
+    Raises
+    ------
+    OutOfReach
+        Says how far the pose is out of the arm's reach, or of its joint limits.
     """
     inside: list[Array] = []
     excess: list[tuple[float, int]] = []
@@ -83,10 +115,26 @@ def nearest(arm: Arm, pose: Array, near: Array) -> Array:
 
 
 def joints_of(arm: Arm, poses: list[Array], near: Array | None = None) -> Array:
-    """Joint positions (n, 6) [rad] for poses in order, each nearest to the last; the first to ``near``.
+    """Find joint positions for poses in order, each nearest to the one before.
 
-    near: (6,) [rad]; the middle of the joint limits, or 0 where there are none, if left out. Raises
-    OutOfReach that names the pose.
+    Parameters
+    ----------
+    arm : Arm
+        An arm with six joints.
+    poses : list of Array, shape (4, 4)
+        Homogeneous transforms of the tool, lengths in m.
+    near : Array, shape (6,), optional
+        What the first is nearest to [rad]. Left out: the middle of the joint limits, or 0 without limits.
+
+    Returns
+    -------
+    Array, shape (n, 6)
+        Joint positions [rad].
+
+    Raises
+    ------
+    OutOfReach
+        Names the pose.
     """
     if near is None:
         known = np.where(np.isfinite(arm.position), arm.position, 0.0)
@@ -103,7 +151,7 @@ def joints_of(arm: Arm, poses: list[Array], near: Array | None = None) -> Array:
 
 @cache
 def _solver(name: str, *table: tuple[float, ...]) -> Any:
-    """EAIK's solver of a chain without offsets; one per arm."""
+    """Make EAIK's solver of a chain without offsets, once per arm."""
     try:
         from eaik.IK_DH import DhRobot
     except ImportError:
@@ -118,7 +166,7 @@ def _solver(name: str, *table: tuple[float, ...]) -> Any:
 
 
 def _closed_forms(arm: Arm, pose: Array) -> list[Array]:
-    """EAIK's solutions in joint coordinates; its least-squares ones too, where they nearly fit."""
+    """Return EAIK's solutions in joint coordinates, and its least-squares ones that nearly fit."""
     chain = arm.chain
     solver = _solver(arm.name, *(tuple(row.tolist()) for row in (chain.alpha, chain.a, chain.d)))
     thetas = np.array(solver.IK(pose).Q, dtype=np.float64).reshape(-1, arm.dof)
@@ -127,23 +175,23 @@ def _closed_forms(arm: Arm, pose: Array) -> list[Array]:
 
 
 def _solutions(arm: Arm, pose: Array, asked: Array) -> list[Array]:
-    """The closed forms of one pose, polished onto another."""
+    """Solve one pose in closed form and polish the solutions onto another."""
     found = [_polished(arm, pose, q) for q in _closed_forms(arm, asked)]
     return [q for q in found if q is not None]
 
 
 def _moved(pose: Array, axis: int, sign: float) -> Array:
-    """A pose beside another: turned and shifted by a hair in directions that no symmetry shares."""
-    twist = np.roll([1.0, 0.6, 0.3, 0.8, -0.5, 0.4], axis) * sign * _HAIR
+    """Turn and shift a pose a little, in directions that no symmetry of an arm shares."""
+    twist = np.roll([1.0, 0.6, 0.3, 0.8, -0.5, 0.4], axis) * sign * _NEARBY
     moved = pose_of(pose[:3, 3] + twist[:3], twist[3:])
     moved[:3, :3] = moved[:3, :3] @ pose[:3, :3]
     return moved
 
 
 def _polished(arm: Arm, pose: Array, start: Array, near: Array | None = None) -> Array | None:
-    """Newton's method on the pose error from a start, within +-pi; None where it does not converge.
+    """Apply Newton's method to the pose error, within +-pi; None if it does not converge.
 
-    Directions in which the tool does not move are left alone, or followed towards ``near``.
+    In directions in which the tool does not move, the joints stay or, if given, move towards ``near``.
     """
     q = start
     for _ in range(50):
@@ -167,12 +215,12 @@ def _is_singular(arm: Arm, joints: Array) -> bool:
 
 
 def _wrapped(angles: Array) -> Array:
-    """Angles within +-pi."""
+    """Return the same angles within +-pi."""
     return np.asarray((angles + np.pi) % _TURN - np.pi)
 
 
 def _turned(arm: Arm, joints: Array, near: Array) -> Array:
-    """The same pose with whole turns added: nearest to ``near``, within the limits if that can be."""
+    """Add whole turns: nearest to ``near``, and within the limits where that is possible."""
     free = joints + _TURN * np.round((near - joints) / _TURN)
     low, high = arm.position.T
     fewest = np.ceil((low - POSITION_TOLERANCE - joints) / _TURN)

@@ -1,4 +1,4 @@
-"""Forward kinematics of a Denavit-Hartenberg chain (000 eq. 1-2; 001 eq. 1), and poses from angles.
+"""Forward kinematics of a Denavit-Hartenberg chain (Wang 2025, eq. 1-2; Li 2022, eq. 1), and poses.
 
 Standard convention: T = T1 T2 ... Tn, Ti = Rz(theta_i) Tz(d_i) Tx(a_i) Rx(alpha_i),
 theta_i = sign_i q_i + offset_i.
@@ -16,7 +16,17 @@ from formulations.problem.arrays import Array
 
 @dataclass(frozen=True)
 class Chain:
-    """A DH table. d, a: (dof,) in m; alpha, offset: (dof,) in rad; sign: (dof,) of +-1."""
+    """A table of Denavit-Hartenberg parameters.
+
+    Attributes
+    ----------
+    d, a : Array, shape (dof,)
+        Link offsets and lengths [m].
+    alpha, offset : Array, shape (dof,)
+        Link twists, and the DH angles at joint position 0 [rad].
+    sign : Array, shape (dof,)
+        +1 or -1, the sense of each joint.
+    """
 
     d: Array
     a: Array
@@ -25,16 +35,38 @@ class Chain:
     sign: Array
 
     def theta(self, joints: ArrayLike) -> Array:
-        """DH angles of joint positions (..., dof) [rad]."""
+        """Convert joint positions to DH angles.
+
+        Parameters
+        ----------
+        joints : array_like, shape (..., dof)
+            Joint positions [rad].
+
+        Returns
+        -------
+        Array, shape (..., dof)
+            [rad].
+        """
         return np.asarray(self.sign * np.asarray(joints, dtype=np.float64) + self.offset)
 
     def frames(self, joints: ArrayLike) -> Array:
-        """Base frame and the frame behind each link, (..., dof + 1, 4, 4), lengths in m."""
+        """Compute the base frame and the frame at the end of each link.
+
+        Parameters
+        ----------
+        joints : array_like, shape (..., dof)
+            Joint positions [rad].
+
+        Returns
+        -------
+        Array, shape (..., dof + 1, 4, 4)
+            Homogeneous transforms, lengths in m.
+        """
         theta = self.theta(joints)
         c, s = np.cos(theta), np.sin(theta)
         ca, sa = np.cos(self.alpha), np.sin(self.alpha)
         link = np.zeros((*theta.shape, 4, 4))
-        rows = (  # 000 eq. 1
+        rows = (  # Wang 2025, eq. 1
             (c, -ca * s, sa * s, self.a * c),
             (s, ca * c, -sa * c, self.a * s),
             (0.0, sa, ca, self.d),
@@ -49,20 +81,54 @@ class Chain:
         return np.stack(frames, axis=-3)
 
     def forward(self, joints: ArrayLike) -> Array:
-        """Pose of the tool, (..., 4, 4) with lengths in m, for joint positions (..., dof) [rad]."""
+        """Compute the pose of the tool (Wang 2025, eq. 2).
+
+        Parameters
+        ----------
+        joints : array_like, shape (..., dof)
+            Joint positions [rad].
+
+        Returns
+        -------
+        Array, shape (..., 4, 4)
+            Homogeneous transforms, lengths in m.
+        """
         return np.asarray(self.frames(joints)[..., -1, :, :])
 
     def jacobian(self, joints: ArrayLike) -> Array:
-        """Tool velocity and angular velocity per joint velocity, in the base frame, (6, dof)."""
+        """Compute the Jacobian of the tool in the base frame.
+
+        Parameters
+        ----------
+        joints : array_like, shape (dof,)
+            Joint positions [rad].
+
+        Returns
+        -------
+        Array, shape (6, dof)
+            Velocity [m] and angular velocity [1] per joint velocity.
+        """
         frames = self.frames(joints)
         axis, origin = frames[:-1, :3, 2] * self.sign[:, None], frames[:-1, :3, 3]
         return np.concatenate([np.cross(axis, frames[-1, :3, 3] - origin), axis], axis=1).T
 
 
 def pose_of(position: ArrayLike, rpy: ArrayLike) -> Array:
-    """Pose (4, 4) from position (3,) [m] and roll, pitch, yaw (3,) [rad].
+    """Make a pose from a position and roll, pitch and yaw: R = Rz(yaw) Ry(pitch) Rx(roll).
 
-    R = Rz(yaw) Ry(pitch) Rx(roll), the reading of 000 Table 4 that fits.
+    This is the reading of the angles in Wang 2025, Table 4 that fits the arm.
+
+    Parameters
+    ----------
+    position : array_like, shape (3,)
+        [m].
+    rpy : array_like, shape (3,)
+        Roll, pitch, yaw [rad].
+
+    Returns
+    -------
+    Array, shape (4, 4)
+        Homogeneous transform.
     """
     (cr, cp, cy), (sr, sp, sy) = np.cos(rpy), np.sin(rpy)
     pose = np.eye(4)
@@ -76,7 +142,18 @@ def pose_of(position: ArrayLike, rpy: ArrayLike) -> Array:
 
 
 def rpy_of(pose: Array) -> Array:
-    """Roll, pitch, yaw of poses (..., 4, 4), (..., 3) [rad]; yaw 0 where pitch is +-90 deg exactly."""
+    """Extract roll, pitch and yaw.
+
+    Parameters
+    ----------
+    pose : Array, shape (..., 4, 4)
+        Homogeneous transforms.
+
+    Returns
+    -------
+    Array, shape (..., 3)
+        Roll, pitch, yaw [rad]; the yaw is 0 where the pitch is exactly +-90 deg.
+    """
     R = pose[..., :3, :3]
     level = np.hypot(R[..., 0, 0], R[..., 1, 0])
     lost = level < 1e-12
@@ -87,7 +164,18 @@ def rpy_of(pose: Array) -> Array:
 
 
 def error_of(wanted: Array, reached: Array) -> Array:
-    """From the pose reached to the one wanted, base frame, (6,): position [m], rotation [rad]."""
+    """Compute the step from the pose reached to the pose wanted, in the base frame.
+
+    Parameters
+    ----------
+    wanted, reached : Array, shape (4, 4)
+        Homogeneous transforms.
+
+    Returns
+    -------
+    Array, shape (6,)
+        Position [m] and rotation vector [rad].
+    """
     turn = wanted[:3, :3] @ reached[:3, :3].T
     axis = 0.5 * np.array([turn[2, 1] - turn[1, 2], turn[0, 2] - turn[2, 0], turn[1, 0] - turn[0, 1]])
     sine, cosine = float(np.linalg.norm(axis)), 0.5 * (float(np.trace(turn)) - 1.0)

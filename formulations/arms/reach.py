@@ -1,4 +1,4 @@
-"""What an arm can reach: its Monte Carlo workspace (003), and how far a point is beyond it."""
+"""What an arm can reach: its Monte Carlo workspace (Lu & Wang 2024), and how far a point is out of it."""
 
 from __future__ import annotations
 
@@ -18,29 +18,83 @@ _TURNED = 1e-7  # rad off an orientation that is to be kept
 
 
 def random_joints(arm: Arm, n: int, seed: int = 0) -> Array:
-    """Joint positions drawn evenly within the limits, +-pi where there are none, (n, dof) [rad]."""
+    """Draw joint positions evenly within the limits, or within +-pi where there are none.
+
+    Parameters
+    ----------
+    arm : Arm
+        The arm.
+    n : int
+        How many.
+    seed : int
+        Of the random numbers.
+
+    Returns
+    -------
+    Array, shape (n, dof)
+        [rad].
+    """
     low, high = _box(arm)
     return np.asarray(np.random.default_rng(seed).uniform(low, high, (n, arm.dof)))
 
 
 def workspace(arm: Arm, n: int = 20_000, seed: int = 0) -> Array:
-    """Tool points of random joint positions, (n, 3) [m]: the Monte Carlo workspace."""
+    """Compute the tool points of random joint positions, the Monte Carlo workspace.
+
+    Parameters
+    ----------
+    arm : Arm
+        The arm.
+    n : int
+        How many points.
+    seed : int
+        Of the random numbers.
+
+    Returns
+    -------
+    Array, shape (n, 3)
+        [m].
+    """
     return np.asarray(arm.chain.forward(random_joints(arm, n, seed))[:, :3, 3])
 
 
 def distance_to(arm: Arm, position: Array) -> tuple[float, Array]:
-    """How near the tool gets to a position (3,) [m], in any orientation: distance [m] and joints [rad].
+    """Find how near the tool gets to a position, in any orientation.
 
-    The best of many local searches within the joint limits: an upper bound of the true distance.
+    This is the best of many local searches within the joint limits: an upper bound on the true distance.
+
+    Parameters
+    ----------
+    arm : Arm
+        The arm.
+    position : Array, shape (3,)
+        [m].
+
+    Returns
+    -------
+    distance : float
+        [m].
+    joints : Array, shape (dof,)
+        Joint positions at this distance [rad].
     """
     joints = _nearest(arm, position, ())
     return float(np.linalg.norm(arm.chain.forward(joints)[:3, 3] - position)), joints
 
 
 def distance_in_pose(arm: Arm, pose: Array) -> float:
-    """How near the tool gets to the position of a pose (4, 4) while it keeps its orientation [m].
+    """Find how near the tool gets to the position of a pose in the orientation of that pose.
 
-    The best of many local searches that end in this orientation; infinite if none does.
+    Parameters
+    ----------
+    arm : Arm
+        The arm.
+    pose : Array, shape (4, 4)
+        Homogeneous transform, lengths in m.
+
+    Returns
+    -------
+    float
+        Distance [m], the best of many local searches; infinite if none of them ends in the orientation.
     """
 
     def turned(q: Array) -> Array:
@@ -56,7 +110,20 @@ def distance_in_pose(arm: Arm, pose: Array) -> float:
 
 
 def refusal(arm: Arm, pose: Array) -> OutOfReach:
-    """Why no joint positions put the tool at a pose, in one line with the distance."""
+    """Explain why no joint positions put the tool at a pose.
+
+    Parameters
+    ----------
+    arm : Arm
+        The arm.
+    pose : Array, shape (4, 4)
+        Homogeneous transform, lengths in m.
+
+    Returns
+    -------
+    OutOfReach
+        One line with the distance, to be raised.
+    """
     point = np.array2string(pose[:3, 3], precision=4, separator=", ", suppress_small=True)
     orientation = "any"
     distance, _ = distance_to(arm, pose[:3, 3])

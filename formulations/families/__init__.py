@@ -1,4 +1,7 @@
-"""Spline families: durations -> spline through the waypoints. One file each; add yours to FAMILIES."""
+"""Spline families: rules that make durations into a spline through the waypoints.
+
+One file each; add yours to ``FAMILIES``. ``polynomial`` holds the exact peaks and the stretch, which all share.
+"""
 
 from __future__ import annotations
 

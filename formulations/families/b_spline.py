@@ -1,11 +1,12 @@
-"""B-spline through the waypoints, degree 3 or 5 (003 eq. 1-12).
+"""B-spline through the waypoints, of degree 3 or 5 (Lu & Wang 2024, eq. 1-12; they do not print the degree).
 
-The durations are the differences of the parameters at which the waypoints are passed (003 eq. 5 by
-chord length is one choice of them), the inner knots their running means (003 eq. 6). Velocity and
-acceleration are zero at both ends (003 sec. 3.2), which makes the first three control points equal and
-the last three too (003 eq. 9-12), and asks for four more control points and knots than waypoints
-do: the running means go on over both ends, where the outermost parameter counts again. 003 leaves
-the degree open.
+The durations are the differences of the parameters at which the waypoints are passed; chord lengths
+(eq. 5) are one choice of them. The inner knots are running means of these parameters (eq. 6). Velocity and
+acceleration are zero at both ends (sec. 3.2). Therefore the first three control points are equal, and so
+are the last three (eq. 9-12), and there are four more control points and knots than the waypoints alone
+would need: the running means continue over both ends, where the outermost parameter is repeated.
+
+Equation numbers in this file are those of Lu & Wang 2024.
 """
 
 from __future__ import annotations
@@ -25,9 +26,10 @@ from formulations.problem.arrays import Array
 
 @compiled
 def apart(steps: Any, out: Any) -> None:
-    """Signed distance from point a to point b, out[a, b]; sums of steps, never differences of sums.
+    """Compute the signed distances out[a, b] from point a to point b, (n + 1, n + 1), from n steps.
 
-    Where a step is tiny beside the others, differences of sums would have no digits left.
+    Each is a sum of steps. A difference of two sums would lose its digits where a step is tiny beside
+    the others.
     """
     n = len(steps)
     for a in range(n + 1):
@@ -39,10 +41,10 @@ def apart(steps: Any, out: Any) -> None:
 
 @compiled
 def knots(gaps: Any, degree: int, reach: Any, h: Any) -> None:
-    """From waypoints to knots, reach[i, k] (n + 1, spans + 1), and lengths of the spans h (spans,).
+    """Compute the distances reach[i, k] from waypoint i to knot k, (n + 1, spans + 1), and the spans h.
 
-    gaps: (n + 1, n + 1), between the waypoints. Inner knot k is the mean of the parameters
-    k - 2 .. k + degree - 3, cut to 0 .. n (003 eq. 6); the outer ones are the ends.
+    gaps: distances between the waypoints, (n + 1, n + 1). Inner knot k is the mean of the parameters
+    k - 2 .. k + degree - 3, each index cut to 0 .. n (eq. 6). The outer knots are the two ends.
     """
     n, n_spans = len(gaps) - 1, len(h)
     for i in range(n + 1):
@@ -52,14 +54,14 @@ def knots(gaps: Any, degree: int, reach: Any, h: Any) -> None:
             for m in range(k - 1, k + degree - 2):
                 total = total + gaps[i, min(max(m, 0), n)]
             reach[i, k] = total / degree
-    for k in range(1, n_spans - 1):  # two means that share all but one term each
+    for k in range(1, n_spans - 1):  # neighbouring means share all but one term each
         h[k] = gaps[max(k - 2, 0), min(k + degree - 2, n)] / degree
     h[0], h[n_spans - 1] = reach[0, 1], -reach[n, n_spans - 1]
 
 
 @compiled
 def spans_of(reach: Any, spans: Any) -> None:
-    """Knot span that each inner waypoint lies in, (n + 1,) integers."""
+    """Find the knot span that each inner waypoint lies in, (n + 1,) integers."""
     k = 0
     for i in range(1, len(reach) - 1):
         while reach[i, k + 1] <= 0.0 and k < reach.shape[1] - 2:
@@ -69,10 +71,10 @@ def spans_of(reach: Any, spans: Any) -> None:
 
 @compiled
 def basis(h: Any, between: Any, degree: int, out: Any, work: Any) -> None:
-    """The degree + 1 basis functions that live on each span, as polynomials of s in [0, 1].
+    """Compute the degree + 1 basis functions that are not zero on each span, as polynomials of s in [0, 1].
 
-    out: (spans, degree + 1, 6). Cox - de Boor (003 eq. 2) with its factors written out in s.
-    between: distances of the knots (spans + 1, spans + 1). work: (6,).
+    This is the recursion of Cox and de Boor (eq. 2) with its factors written out in s. out: (spans,
+    degree + 1, 6). between: distances between the knots, (spans + 1, spans + 1). work: (6,) scratch.
     """
     n_spans = len(h)
     for k in range(n_spans):
@@ -102,10 +104,11 @@ def basis(h: Any, between: Any, degree: int, out: Any, work: Any) -> None:
 
 @compiled
 def collocation(reach: Any, between: Any, spans: Any, degree: int, values: Any, matrix: Any) -> None:
-    """The basis functions at the inner waypoints: those that live on the span of each, values
-    (n - 1, degree + 1), and the same ones in the columns of all control points, matrix (n - 1, n + 5).
+    """Compute the basis functions at the inner waypoints.
 
-    Cox - de Boor on the distances themselves: near the end of a span, 1 - s has no digits left.
+    values, (n - 1, degree + 1): those that are not zero on the span of each waypoint. matrix, (n - 1,
+    n + 5): the same in the columns of all control points. The recursion of Cox and de Boor runs on the
+    distances themselves, because 1 - s has few digits left near the end of a span.
     """
     n, n_spans = len(reach) - 1, len(between) - 1
     for i in range(n - 1):
@@ -131,7 +134,7 @@ def collocation(reach: Any, between: Any, spans: Any, degree: int, values: Any, 
 
 @compiled
 def eliminate(matrix: Any) -> None:
-    """LU of the columns 3 .. n + 1 in place, without pivoting: the matrix is totally positive."""
+    """Factorise the columns 3 .. n + 1 in place; a totally positive matrix needs no pivoting."""
     n = len(matrix)
     for k in range(n):
         for i in range(k + 1, min(k + 6, n)):
@@ -145,13 +148,13 @@ def eliminate(matrix: Any) -> None:
 def joint(
     x: Any, degree: int, functions: Any, spans: Any, values: Any, matrix: Any, d: Any, c: Any
 ) -> None:
-    """Coefficients of one joint, c (spans, 6), from its waypoints x (n + 1,); d: (n + 5,) scratch.
+    """Compute the coefficients of one joint, c (spans, 6), from its waypoints x (n + 1,).
 
-    Control point j is sought as its distance from waypoint j - 2, of those that there are: a joint
-    that stands still does so to the bit, and no digits go with an offset or a segment that vanishes.
+    The unknown d[j] is the distance of control point j from waypoint j - 2, cut to 0 .. n. Thus a joint
+    that does not move has d = 0 exactly, and neither an offset nor a very short segment costs digits.
     """
     n = len(x) - 1
-    for j in range(n + 5):  # rest at both ends: the first three, and the last three, stay zero
+    for j in range(n + 5):  # rest at both ends: the first three and the last three are zero (eq. 9-12)
         d[j] = 0.0
     for i in range(n - 1):
         for j in range(degree + 1):
@@ -176,7 +179,7 @@ def joint(
 
 @compiled
 def population(waypoints: Any, durations: Any, degree: int, lengths: Any, out: Any) -> None:
-    """Whole populations, one piece per knot span (see ``Family``)."""
+    """Fill the splines of a whole population, one piece per knot span (see ``Family``)."""
     n = durations.shape[1]
     n_spans = n + 5 - degree
     gaps, between = np.zeros((n + 1, n + 1)), np.zeros((n_spans + 1, n_spans + 1))
@@ -200,7 +203,7 @@ def population(waypoints: Any, durations: Any, degree: int, lengths: Any, out: A
 
 
 def _spans(durations: Array, degree: int) -> NDArray[np.int64]:
-    """Knot span of each waypoint for numeric durations, (n + 1,) integers."""
+    """Find the knot span of each waypoint for numeric durations, (n + 1,) integers."""
     n = len(durations)
     gaps, spans = np.zeros((n + 1, n + 1)), np.zeros(n + 1, dtype=np.int64)
     reach, h = np.zeros((n + 1, n + 6 - degree)), np.zeros(n + 5 - degree)
@@ -211,7 +214,7 @@ def _spans(durations: Array, degree: int) -> NDArray[np.int64]:
 
 
 def _shared(t: list[Any], degree: int, spans: NDArray[np.int64]) -> tuple[Any, Any, Any, Any]:
-    """What all joints share: lengths, basis functions, collocation; on whatever t are."""
+    """Compute what all joints share (spans, basis functions, equations) on floats or symbols t."""
     n = len(t)
     n_spans = n + 5 - degree
     gaps, between = scratch(n + 1, n + 1), scratch(n_spans + 1, n_spans + 1)
@@ -233,14 +236,14 @@ def _shared(t: list[Any], degree: int, spans: NDArray[np.int64]) -> tuple[Any, A
 
 @lru_cache(maxsize=64)
 def _built(n: int, degree: int, pattern: tuple[int, ...]) -> casadi.Function:
-    """``_shared`` as a function of the durations: built once per pattern of knots."""
+    """Build ``_shared`` as a CasADi function of the durations, once per pattern of knots."""
     t = casadi.SX.sym("t", n)
     parts = _shared(casadi.vertsplit(t), degree, np.array(pattern))
     return casadi.Function("shared", [t], [casadi.vertcat(*part.ravel()) for part in parts])
 
 
 def _symbols(waypoints: Array, t: list[Any], near: Array, degree: int) -> tuple[list[Any], list[Any]]:
-    """Splines on symbols, for the pattern of knots that ``near`` has (see ``Family``)."""
+    """Compute the splines on symbols, for the pattern of knots that ``near`` has (see ``Family``)."""
     n = len(t)
     n_spans, rows = n + 5 - degree, max(n - 1, 1)
     spans = _spans(near, degree)
@@ -259,7 +262,7 @@ def _symbols(waypoints: Array, t: list[Any], near: Array, degree: int) -> tuple[
 
 
 def _cells(column: Any, shape: tuple[int, ...]) -> Any:
-    """A column of symbols as an array that Python's loops can run on."""
+    """Turn a column of symbols into an array that Python's loops can run on."""
     cells = scratch(column.numel())
     cells[:] = casadi.vertsplit(column)
     return cells.reshape(shape)
@@ -269,7 +272,7 @@ def _family(degree: int) -> Family:
     return Family(
         name=f"b-spline-{degree}",
         title=f"B-spline of degree {degree}",
-        source="003 eq. 1-12, degree assumed",
+        source="Lu & Wang 2024, eq. 1-12, degree assumed",
         population=lambda x, t, lengths, out: population(x, t, degree, lengths, out),
         symbols=lambda x, t, near: _symbols(x, t, near, degree),
         degrees=lambda n_segments: (degree,) * (n_segments + 5 - degree),

@@ -22,15 +22,38 @@ _BLOCK = 256  # candidates whose coefficients fit the processor's cache
 
 @dataclass(frozen=True)
 class Family:
-    """One spline family. Its formula stands once, in its file; all else follows from it.
+    """One spline family: its formula stands once, in its file, and all else follows from it.
 
-    population(waypoints, durations, lengths, out): the splines of whole populations, compiled:
-    (n+1, dof), (m, n) -> lengths of the polynomial pieces (m, n_pieces) [s] and their coefficients on
-    normalised time, out (m, n_pieces, dof, 6), zeroed before.
-    symbols(waypoints, t, near): the same lines run on symbols t; near: the numeric durations whose
-    pattern of knots holds. Returns lengths per piece, and coefficients per joint and piece.
-    degrees(n_segments): polynomial degree of each piece. refusal(n_segments): why not, or None.
-    pattern(durations): what changes the formula's course; equal patterns, equal symbols.
+    Attributes
+    ----------
+    name, title, source : str
+        Key in ``FAMILIES``, name for people, and the paper it comes from.
+    population : callable
+        ``population(waypoints, durations, lengths, out)``, compiled: from waypoints (n + 1, dof) [rad] and
+        durations (m, n) [s] it fills the lengths of the polynomial pieces (m, n_pieces) [s] and their
+        coefficients on normalised time, out (m, n_pieces, dof, 6) [rad], which is zero before.
+    symbols : callable
+        ``symbols(waypoints, t, near)``: runs the same lines on CasADi symbols t. ``near`` are numeric
+        durations that have the pattern wanted. Returns the length of each piece, and the coefficients by
+        joint and piece.
+    degrees : callable
+        ``degrees(n_segments)``: the polynomial degree of each piece.
+    refusal : callable
+        ``refusal(n_segments)``: why the family has no spline for so many segments, None if it has one.
+    pattern : callable
+        ``pattern(durations)``: integers that tell which course the formula takes. Durations of equal
+        patterns share their symbols. For a B-spline it says which knot span each waypoint lies in.
+
+    Examples
+    --------
+    >>> import formulations as f
+    >>> import numpy as np
+    >>> family, problem = f.FAMILIES["3-5-3"], f.load("sr4c")
+    >>> durations = np.array([[2.0, 1.0, 2.0], [2.0, 2.0, 2.0]])  # two candidates
+    >>> family.stretch(problem, durations).round(3).tolist()
+    [2.007, 0.857]
+    >>> family.trajectory(problem, durations[0]).seconds
+    5.0
     """
 
     name: str
@@ -43,15 +66,45 @@ class Family:
     pattern: Callable[[Array], tuple[int, ...]] = lambda durations: ()
 
     def require(self, problem: Problem) -> None:
-        """Raises UnsupportedProblem with the reason if the family has no spline for the problem."""
+        """Refuse a problem for which the family has no spline.
+
+        Parameters
+        ----------
+        problem : Problem
+            Its number of segments decides.
+
+        Raises
+        ------
+        UnsupportedProblem
+            With the reason.
+        """
         reason = self.refusal(problem.n_segments)
         if reason is not None:
             raise UnsupportedProblem(f"family: {reason}")
 
     def pieces(self, problem: Problem, durations: Array) -> tuple[Array, Array]:
-        """The splines of a population: (n, n_segments) [s] -> lengths (n, n_pieces) [s], coefficients.
+        """Compute the splines of a population.
 
-        Coefficients on normalised time, (n, n_pieces, dof, 6) [rad], ascending.
+        Parameters
+        ----------
+        problem : Problem
+            Its waypoints and limits; the family does not matter.
+        durations : Array, shape (n, n_segments)
+            One candidate per row [s].
+
+        Returns
+        -------
+        lengths : Array, shape (n, n_pieces)
+            Lengths of the polynomial pieces [s].
+        coefficients : Array, shape (n, n_pieces, dof, 6)
+            Ascending, on normalised time [rad].
+
+        Raises
+        ------
+        UnsupportedProblem
+            If the family has no spline for the problem.
+        InputError
+            For durations of another shape, or that are not positive and finite.
         """
         self.require(problem)
         durations = np.ascontiguousarray(durations, dtype=np.float64)
@@ -69,7 +122,7 @@ class Family:
 
     @cached_property
     def _one(self) -> Late:
-        """``population`` for a single candidate: not worth the compiler's time."""
+        """``population`` for a single candidate, which seldom is worth compiling."""
         return Late(self.population)
 
     def _blocks(self, problem: Problem, durations: Array) -> Iterator[tuple[slice, Array, Array]]:
@@ -80,16 +133,50 @@ class Family:
             yield rows, *self.pieces(problem, durations[rows])
 
     def coefficients(self, problem: Problem, durations: Array) -> Array:
-        """Coefficients on normalised time alone, (n, n_pieces, dof, 6) [rad]."""
+        """Compute the coefficients alone.
+
+        Parameters
+        ----------
+        problem : Problem
+            Its waypoints and limits; the family does not matter.
+        durations : Array, shape (n, n_segments)
+            One candidate per row [s].
+
+        Returns
+        -------
+        Array, shape (n, n_pieces, dof, 6)
+            Ascending, on normalised time [rad].
+        """
         return self.pieces(problem, durations)[1]
 
     def degrees_of(self, problem: Problem) -> Array:
-        """Polynomial degree of each piece, (n_pieces,) integers."""
+        """Return the polynomial degree of each piece.
+
+        Parameters
+        ----------
+        problem : Problem
+            Its number of segments decides.
+
+        Returns
+        -------
+        Array of int, shape (n_pieces,)
+        """
         return np.array(self.degrees(problem.n_segments))
 
     def peaks(self, problem: Problem, durations: Array) -> Array:
-        """Exact peaks of |velocity|, |acceleration|, |jerk| per joint: (n, n_segments) [s] ->
-        (n, dof, 3) [rad/s, rad/s^2, rad/s^3].
+        """Compute the exact peaks of |velocity|, |acceleration| and |jerk|.
+
+        Parameters
+        ----------
+        problem : Problem
+            Its waypoints and limits; the family does not matter.
+        durations : Array, shape (n, n_segments)
+            One candidate per row [s].
+
+        Returns
+        -------
+        Array, shape (n, dof, 3)
+            Peaks of each joint [rad/s, rad/s^2, rad/s^3].
         """
         durations = np.asarray(durations, dtype=np.float64)
         out = np.empty((len(durations), problem.dof, 3))
@@ -99,9 +186,21 @@ class Family:
         return out
 
     def stretch(self, problem: Problem, durations: Array) -> Array:
-        """Least factor on all durations that keeps the derivative limits: (n, n_segments) -> (n,).
+        """Compute the least factor on all durations that keeps the derivative limits.
 
-        At most 1 exactly where the candidate is feasible, position limits apart.
+        A candidate keeps them if its factor is at most 1. Position limits are not looked at: no stretch
+        changes the path.
+
+        Parameters
+        ----------
+        problem : Problem
+            Its waypoints and limits; the family does not matter.
+        durations : Array, shape (n, n_segments)
+            One candidate per row [s].
+
+        Returns
+        -------
+        Array, shape (n,)
         """
         durations = np.asarray(durations, dtype=np.float64)
         out = np.empty(len(durations))
@@ -111,9 +210,21 @@ class Family:
         return out
 
     def position_excess(self, problem: Problem, durations: Array) -> Array:
-        """How far the position limits are left [rad]: (n, n_segments) -> (n,), 0 if kept.
+        """Compute how far each candidate leaves the position limits.
 
-        It depends on the shape alone; no stretch mends it.
+        It depends on the ratios of the durations alone: no stretch changes it.
+
+        Parameters
+        ----------
+        problem : Problem
+            Its waypoints and limits; the family does not matter.
+        durations : Array, shape (n, n_segments)
+            One candidate per row [s].
+
+        Returns
+        -------
+        Array, shape (n,)
+            Largest excess [rad], 0 if the limits are kept.
         """
         durations = np.asarray(durations, dtype=np.float64)
         out = np.zeros(len(durations))
@@ -124,7 +235,20 @@ class Family:
         return out
 
     def trajectory(self, problem: Problem, durations: Any) -> Trajectory:
-        """The spline for one vector of durations (n_segments,) [s]."""
+        """Compute the spline of one candidate.
+
+        Parameters
+        ----------
+        problem : Problem
+            Its waypoints and limits; the family does not matter.
+        durations : array_like, shape (n_segments,)
+            Durations of the segments [s].
+
+        Returns
+        -------
+        Trajectory
+            Passes the waypoints; whether it keeps the limits is for ``check`` to say.
+        """
         t = np.asarray(durations, dtype=np.float64)
         lengths, normalised = (part[0] for part in self.pieces(problem, t[None]))
         powers = lengths[:, None, None] ** np.arange(WIDTH)
@@ -135,7 +259,17 @@ class Family:
 
 
 def scratch(*shape: int) -> Any:
-    """Zeroed arrays that hold symbols, to run compiled formulas on as plain Python."""
+    """Make a zeroed array that can hold symbols, so that a compiled formula runs on it as plain Python.
+
+    Parameters
+    ----------
+    *shape : int
+        Its shape.
+
+    Returns
+    -------
+    array of object
+    """
     cells = np.empty(shape, dtype=object)
     cells.fill(0.0)
     return cells
@@ -144,7 +278,20 @@ def scratch(*shape: int) -> Any:
 def on_symbols(
     joint: Any, *, work: int = 0
 ) -> Callable[[Array, list[Any], Array], tuple[list[Any], list[Any]]]:
-    """``symbols`` of a family with one piece per segment and a compiled joint(x, t, c[, work])."""
+    """Make ``symbols`` of a family that has one piece per segment.
+
+    Parameters
+    ----------
+    joint : callable
+        The compiled ``joint(x, t, c)``, or ``joint(x, t, c, work)``.
+    work : int
+        Rows of scratch that it needs, each as long as t.
+
+    Returns
+    -------
+    callable
+        As ``Family.symbols``.
+    """
 
     def symbols(waypoints: Array, t: list[Any], near: Array) -> tuple[list[Any], list[Any]]:
         joints = []

@@ -1,7 +1,9 @@
-"""4-3-...-3-4 spline: quartic ends, any number of cubics between (001 eq. 8-9).
+"""4-3-...-3-4 spline: a quartic at each end and any number of cubics between (Li 2022, eq. 8-9).
 
-The velocities at the inner waypoints solve one diagonally dominant tridiagonal system, from equal
-accelerations on both sides; the end segments weigh 6 where inner ones weigh 4.
+Li 2022 solves one system of 4 n + 2 equations per joint (eq. 9). Here the unknowns are the velocities at the
+inner waypoints alone. Equal accelerations on both sides of each one make a diagonally dominant tridiagonal
+system, in which an end segment has weight 6 and an inner one weight 4. The printed matrix is ``matrix_434``
+in tests/formulations/families/test_papers_matrices.py, which compares the two.
 """
 
 from __future__ import annotations
@@ -16,9 +18,18 @@ from formulations.families.family import Family, on_symbols
 
 @compiled
 def joint(x: Any, t: Any, c: Any, work: Any) -> None:
-    """Coefficients of one joint on normalised time, c (n, 6), from x (n+1,) and durations t (n,).
+    """Solve Li 2022, eq. 9 for one joint; only + - * /, so that it runs on floats and CasADi symbols.
 
-    work: (2, n) scratch. Plain arithmetic alone: the same lines serve floats and CasADi symbols.
+    Parameters
+    ----------
+    x : array, shape (n + 1,)
+        Waypoints of the joint [rad].
+    t : array, shape (n,)
+        Durations [s].
+    c : array, shape (n, 6)
+        Is filled with ascending coefficients on normalised time s = t / T [rad].
+    work : array, shape (2, n)
+        Scratch: ratios of the elimination, and the velocities at the waypoints.
     """
     n = len(t)
     ratio, v = work[0], work[1]
@@ -61,7 +72,7 @@ def joint(x: Any, t: Any, c: Any, work: Any) -> None:
 
 @compiled
 def population(waypoints: Any, durations: Any, lengths: Any, out: Any) -> None:
-    """Whole populations, one piece per segment (see ``Family``)."""
+    """Fill the splines of a whole population, one piece per segment (see ``Family``)."""
     lengths[:] = durations
     work = np.zeros((2, durations.shape[1]))
     for i in range(len(durations)):
@@ -78,7 +89,7 @@ def _refusal(n_segments: int) -> str | None:
 FOUR_THREE_FOUR = Family(
     name="4-3-4",
     title="4-3-...-3-4 spline",
-    source="001 eq. 8-9",
+    source="Li 2022, eq. 8-9",
     population=population,
     symbols=on_symbols(joint, work=2),
     degrees=lambda n_segments: (4, *(3,) * (n_segments - 2), 4),

@@ -2,7 +2,7 @@
 
 A piece is p(s) = sum c[i] s^i on normalised time s = t / T in [0, 1]; velocity is p'(s)/T,
 acceleration p''(s)/T^2, jerk p'''(s)/T^3. The roots of each derivative are bracketed by those of the
-next one, the last of which is linear or quadratic; nothing is sampled.
+next one, the last of which is linear or quadratic. Nothing is sampled.
 """
 
 from __future__ import annotations
@@ -61,7 +61,7 @@ def _closed_form_roots(q: Any, degree: int, roots: Any) -> int:
 
 @compiled
 def _bracketed_roots(q: Any, degree: int, turns: Any, n_turns: int, roots: Any) -> int:
-    """Roots in (0, 1) of q, which is monotone between its turning points; safeguarded Newton."""
+    """Find the roots in (0, 1) of q, which is monotone between its turning points, by safeguarded Newton."""
     count = 0
     low, f_low = 0.0, q[0]
     for k in range(n_turns + 1):
@@ -86,7 +86,7 @@ def _bracketed_roots(q: Any, degree: int, turns: Any, n_turns: int, roots: Any) 
                 new = x - step
                 if not (a < new < b):
                     new = 0.5 * (a + b)
-                if abs(new - x) <= 1e-9:  # Newton: the next error is its square
+                if abs(new - x) <= 1e-9:  # quadratic convergence: the next error is its square
                     x = new
                     break
                 x = new
@@ -106,7 +106,7 @@ def _peak(q: Any, degree: int, turns: Any, n_turns: int) -> float:
 
 @compiled
 def _velocity_hull(c: Any) -> float:
-    """Bound on |p'| on [0, 1]: its largest Bernstein coefficient, p of degree 5 at most."""
+    """Bound |p'| on [0, 1] by its largest Bernstein coefficient, p of degree 5 at most."""
     v1, v2, v3, v4 = 2.0 * c[2], 3.0 * c[3], 4.0 * c[4], 5.0 * c[5]
     return max(
         abs(c[1]),
@@ -119,7 +119,7 @@ def _velocity_hull(c: Any) -> float:
 
 @compiled
 def _acceleration_hull(c: Any) -> float:
-    """Bound on |p''| on [0, 1]: its largest Bernstein coefficient."""
+    """Bound |p''| on [0, 1] by its largest Bernstein coefficient."""
     a0, a1, a2, a3 = 2.0 * c[2], 6.0 * c[3], 12.0 * c[4], 20.0 * c[5]
     return max(
         abs(a0),
@@ -131,7 +131,7 @@ def _acceleration_hull(c: Any) -> float:
 
 @compiled
 def _jerk_peak(c: Any) -> float:
-    """Exact peak of the third derivative, a quadratic, on [0, 1]."""
+    """Compute the exact peak on [0, 1] of the third derivative, a quadratic."""
     j0, j1, j2 = 6.0 * c[3], 24.0 * c[4], 60.0 * c[5]
     peak = max(abs(j0), abs(j0 + j1 + j2))
     s = -0.5 * j1 / j2 if j2 != 0.0 else 0.0
@@ -140,9 +140,9 @@ def _jerk_peak(c: Any) -> float:
 
 @compiled
 def _acceleration_peak(c: Any, degree: int, work: Any) -> float:
-    """Exact peak of the second derivative on [0, 1]; its turning points are the jerk's roots.
+    """Compute the exact peak on [0, 1] of the second derivative; it turns where the jerk is zero.
 
-    Leaves the derivatives in work[0:3], the jerk's roots and their number in work[4], work[6, 0].
+    The derivatives are left in work[0:3], the jerk's roots in work[4] and their number in work[6, 0].
     """
     velocity, acceleration, jerk, jerk_roots = work[0], work[1], work[2], work[4]
     _derivative(c, degree, velocity)
@@ -155,7 +155,7 @@ def _acceleration_peak(c: Any, degree: int, work: Any) -> float:
 
 @compiled
 def _velocity_peak(degree: int, work: Any) -> float:
-    """Exact peak of the first derivative, after ``_acceleration_peak`` of the same piece."""
+    """Compute the exact peak of the first derivative, after ``_acceleration_peak`` of the same piece."""
     velocity, acceleration, jerk_roots, roots = work[0], work[1], work[4], work[5]
     if degree < 5:
         n_roots = _closed_form_roots(acceleration, degree - 2, roots)
@@ -166,10 +166,18 @@ def _velocity_peak(degree: int, work: Any) -> float:
 
 @compiled
 def peaks(coefficients: Any, degrees: Any, durations: Any, out: Any) -> None:
-    """Exact peaks of |velocity|, |acceleration|, |jerk| of whole populations.
+    """Compute the exact peaks of |velocity|, |acceleration| and |jerk| of a whole population.
 
-    coefficients: (n, n_segments, dof, WIDTH), normalised time. degrees: (n_segments,).
-    durations: (n, n_segments) [s]. out: (n, dof, 3).
+    Parameters
+    ----------
+    coefficients : array, shape (n, n_pieces, dof, WIDTH)
+        Ascending, on normalised time [rad].
+    degrees : array of int, shape (n_pieces,)
+        Degree of each piece.
+    durations : array, shape (n, n_pieces)
+        Lengths of the pieces [s].
+    out : array, shape (n, dof, 3)
+        Is filled with the peaks [rad/s, rad/s^2, rad/s^3].
     """
     n, n_segments, dof, _ = coefficients.shape
     work = np.zeros((7, WIDTH))
@@ -187,12 +195,20 @@ def peaks(coefficients: Any, degrees: Any, durations: Any, out: Any) -> None:
 
 @compiled
 def stretch(coefficients: Any, degrees: Any, durations: Any, limits: Any, out: Any) -> None:
-    """Least factor on all durations that makes each candidate keep its derivative limits, (n,).
+    """Compute the least factor on all durations that makes each candidate keep its derivative limits.
 
-    Stretching by f divides velocity by f, acceleration by f^2 and jerk by f^3. Arrays as in
-    ``peaks``; limits: (3, dof). A quantity whose Bernstein coefficients prove that it cannot raise
-    the factor found so far is passed over; starting from the joint that held up the last candidate,
-    most are.
+    A stretch by f divides velocity by f, acceleration by f^2 and jerk by f^3. A quantity is skipped if its
+    Bernstein coefficients prove that it cannot raise the factor found so far. The search starts with the
+    joint that decided for the candidate before, so that most quantities are skipped.
+
+    Parameters
+    ----------
+    coefficients, degrees, durations : array
+        As in ``peaks``.
+    limits : array, shape (3, dof)
+        Limits of velocity, acceleration and jerk [rad/s, rad/s^2, rad/s^3], infinite if there is none.
+    out : array, shape (n,)
+        Is filled with the factors.
     """
     n, n_segments, dof, _ = coefficients.shape
     work = np.zeros((7, WIDTH))
@@ -229,9 +245,16 @@ def stretch(coefficients: Any, degrees: Any, durations: Any, limits: Any, out: A
 
 @compiled
 def position_excess(coefficients: Any, degrees: Any, bounds: Any, out: Any) -> None:
-    """How far each candidate leaves its position bounds [rad], 0 if it stays inside; (n,).
+    """Compute how far each candidate leaves its position bounds; no stretch changes it.
 
-    bounds: (dof, 2) [rad]. Stretching does not change it.
+    Parameters
+    ----------
+    coefficients, degrees : array
+        As in ``peaks``.
+    bounds : array, shape (dof, 2)
+        Least and greatest position of each joint [rad].
+    out : array, shape (n,)
+        Is filled with the largest excess [rad], 0 for a candidate that stays inside.
     """
     n, n_segments, dof, _ = coefficients.shape
     work = np.zeros((7, WIDTH))

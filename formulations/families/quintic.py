@@ -1,8 +1,9 @@
-"""Quintic spline: one quintic per segment, C2 (the rival of 003, inner conditions left open).
+"""Quintic spline: one quintic per segment, twice continuously differentiable.
 
-Read here as the textbook rule: at an inner waypoint the velocity is 0 where the joint turns, else the
-mean of the mean velocities on both sides, and the acceleration is 0 (Biagiotti & Melchiorri 2008,
-sec. 4.1 and 2.1.6). Both vanish at the ends.
+Lu & Wang 2024 compare their B-spline with it, but do not say which velocity and acceleration it has at the
+inner waypoints. The rule here is that of Biagiotti & Melchiorri 2008, sec. 4.1 and 2.1.6: the velocity is 0
+where the joint turns and otherwise the mean of the mean velocities of both segments; the acceleration is 0.
+Both are 0 at the ends.
 """
 
 from __future__ import annotations
@@ -15,11 +16,21 @@ from formulations.families.family import Family, on_symbols
 
 @compiled
 def joint(x: Any, t: Any, c: Any) -> None:
-    """Coefficients of one joint on normalised time, c (n, 6), from x (n+1,) and durations t (n,)."""
+    """Compute the quintics of one joint; only + - * /, so that it runs on floats and CasADi symbols.
+
+    Parameters
+    ----------
+    x : array, shape (n + 1,)
+        Waypoints of the joint [rad].
+    t : array, shape (n,)
+        Durations [s].
+    c : array, shape (n, 6)
+        Is filled with ascending coefficients on normalised time s = t / T [rad].
+    """
     n = len(t)
     for k in range(n):
         d = x[k + 1] - x[k]
-        # velocities at both ends, times T_k
+        # velocities at both ends of the segment, times T_k
         before, after = 0.0 * t[k], 0.0 * t[k]
         if k > 0 and d * (x[k] - x[k - 1]) > 0.0:
             before = 0.5 * (d + (x[k] - x[k - 1]) * t[k] / t[k - 1])
@@ -27,6 +38,7 @@ def joint(x: Any, t: Any, c: Any) -> None:
             after = 0.5 * (d + (x[k + 2] - x[k + 1]) * t[k] / t[k + 1])
         c[k, 0] = x[k]
         c[k, 1] = before
+        # Hermite interpolant without accelerations at its ends
         c[k, 3] = 10.0 * d - 6.0 * before - 4.0 * after
         c[k, 4] = -15.0 * d + 8.0 * before + 7.0 * after
         c[k, 5] = 6.0 * d - 3.0 * before - 3.0 * after
@@ -34,7 +46,7 @@ def joint(x: Any, t: Any, c: Any) -> None:
 
 @compiled
 def population(waypoints: Any, durations: Any, lengths: Any, out: Any) -> None:
-    """Whole populations, one piece per segment (see ``Family``)."""
+    """Fill the splines of a whole population, one piece per segment (see ``Family``)."""
     lengths[:] = durations
     for i in range(len(durations)):
         for j in range(waypoints.shape[1]):
@@ -44,7 +56,7 @@ def population(waypoints: Any, durations: Any, lengths: Any, out: Any) -> None:
 QUINTIC = Family(
     name="quintic",
     title="quintic spline, velocities by the mean rule",
-    source="the rival of 003, inner conditions assumed",
+    source="compared with in Lu & Wang 2024, inner conditions assumed",
     population=population,
     symbols=on_symbols(joint),
     degrees=lambda n_segments: (5,) * n_segments,

@@ -1,8 +1,10 @@
-"""3-5-3 spline: a cube, a quintic, a cube (000 eq. 3-7; 002 eq. 1-7; 004 eq. 8-11).
+"""3-5-3 spline: a cube, a quintic, a cube (Wang 2025, eq. 3-7; Zhou 2025, eq. 1-7; Zhang 2025, eq. 8-11).
 
-The fourteen conditions of the papers' 14x14 matrix fall apart: rest at the start leaves one free
-coefficient in the first cube, rest at the end one in the last, and the quintic is the Hermite
-interpolant between them.
+The papers solve one system of fourteen equations per joint, whose matrix is Wang 2025, eq. 5. It splits:
+rest at the start leaves one coefficient of the first cube, rest at the end one of the last cube, and the
+quintic is the Hermite interpolant between them. ``joint`` writes out the solution. The matrix itself, row by
+row as printed, is ``matrix_353`` in tests/formulations/families/test_papers_matrices.py, which compares the
+two.
 """
 
 from __future__ import annotations
@@ -15,22 +17,29 @@ from formulations.families.family import Family, on_symbols
 
 @compiled
 def joint(x: Any, t: Any, c: Any) -> None:
-    """Coefficients of one joint on normalised time, c (3, 6), from waypoints x (4,), durations t (3,).
+    """Solve Wang 2025, eq. 5 for one joint; only + - * /, so that it runs on floats and CasADi symbols.
 
-    Plain arithmetic alone: the same lines serve floats, populations and CasADi symbols.
+    Parameters
+    ----------
+    x : array, shape (4,)
+        Waypoints of the joint [rad].
+    t : array, shape (3,)
+        Durations [s].
+    c : array, shape (3, 6)
+        Is filled with ascending coefficients on normalised time s = t / T [rad].
     """
     d1 = x[1] - x[0]
     d2 = x[2] - x[1]
     d3 = x[3] - x[2]
-    # first cube: rest at s = 0, so only s^3 is left (000 eq. 4, rows 1-4)
+    # first cube: from x0 at rest, so only s^3 is left, to x1 (eq. 5, rows 10-12 and 14)
     c[0, 0] = x[0]
     c[0, 3] = d1
-    # last cube: rest at s = 1, x3 - d3 (1 - s)^3
+    # last cube: from x2 to x3 at rest, x3 - d3 (1 - s)^3 (eq. 5, rows 7-9 and 13)
     c[2, 0] = x[2]
     c[2, 1] = 3.0 * d3
     c[2, 2] = -3.0 * d3
     c[2, 3] = d3
-    # quintic: position, velocity and acceleration meet the cubes (000 eq. 4, rows 5-12)
+    # quintic: position, velocity and acceleration meet those of the cubes (eq. 5, rows 1-6)
     r, q = t[1] / t[0], t[1] / t[2]
     v0, a0 = 3.0 * d1 * r, 6.0 * d1 * r * r  # times T2 and T2^2
     v1, a1 = 3.0 * d3 * q, -6.0 * d3 * q * q
@@ -47,7 +56,7 @@ def joint(x: Any, t: Any, c: Any) -> None:
 
 @compiled
 def population(waypoints: Any, durations: Any, lengths: Any, out: Any) -> None:
-    """Whole populations, one piece per segment (see ``Family``)."""
+    """Fill the splines of a whole population, one piece per segment (see ``Family``)."""
     lengths[:] = durations
     for i in range(len(durations)):
         for j in range(waypoints.shape[1]):
@@ -63,7 +72,7 @@ def _refusal(n_segments: int) -> str | None:
 THREE_FIVE_THREE = Family(
     name="3-5-3",
     title="3-5-3 spline",
-    source="000 eq. 3-7; 002 eq. 1-7; 004 eq. 8-11",
+    source="Wang 2025, eq. 3-7; Zhou 2025, eq. 1-7; Zhang 2025, eq. 8-11",
     population=population,
     symbols=on_symbols(joint),
     degrees=lambda n_segments: (3, 5, 3),

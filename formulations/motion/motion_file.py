@@ -1,13 +1,13 @@
-"""A motion as a file a robot controller reads, and back: CSV, or a ROS JointTrajectory as JSON.
+"""Motions as files that a robot controller reads, and back: CSV, or a ROS JointTrajectory as JSON.
 
     CSV    time, position_1.., velocity_1.., acceleration_1..; a row per point [s, rad, rad/s, rad/s^2]
     JSON   {"joint_names": [...], "points": [{"positions": [...], "velocities": [...],
            "accelerations": [...], "time_from_start": {"sec": 0, "nanosec": 0}}, ...]}
 
-Points lie at a fixed rate, or where the polynomial pieces of the motion meet. Read back, two points are
-joined by the quintic that has their positions, velocities and accelerations: the way
-joint_trajectory_controller does it, and exact for the latter kind of file but for the times, which JSON
-holds to a nanosecond.
+Points lie at a fixed rate, or at the times at which the polynomial pieces of the motion meet. A reader joins
+two points by the quintic that has their positions, velocities and accelerations, as ROS's
+joint_trajectory_controller does. This gives back a motion whose pieces have degree 5 or less exactly, if its
+file has the points where pieces meet; JSON rounds their times to a nanosecond.
 """
 
 from __future__ import annotations
@@ -31,10 +31,29 @@ _LARGEST = 200_000_000  # bytes of a file to be read
 
 
 def write_motion(path: str | Path, trajectory: Trajectory, *, rate: float | None = None) -> None:
-    """Write a motion as .csv or .json, whole or not at all.
+    """Write a motion to a file, whole or not at all.
 
-    rate: points a second [1/s]; None: the points where the pieces meet. Raises InputError for another
-    suffix, a rate that is not positive, or a file that cannot be written.
+    Parameters
+    ----------
+    path : str or Path
+        Ends in .csv (a row per point, [s, rad, rad/s, rad/s^2]) or .json (a ROS JointTrajectory).
+    trajectory : Trajectory
+        The motion.
+    rate : float, optional
+        Points per second [1/s]. Left out: one point wherever two polynomial pieces meet.
+
+    Raises
+    ------
+    InputError
+        For another suffix, a rate that is not positive, or a file that cannot be written.
+
+    Examples
+    --------
+    >>> import formulations as f
+    >>> spline = f.FAMILIES["3-5-3"].trajectory(f.load("sr4c"), [5.0, 3.0, 5.0])
+    >>> f.write_motion("sr4c.csv", spline, rate=125.0)  # doctest: +SKIP
+    >>> f.read_motion("sr4c.csv").seconds  # doctest: +SKIP
+    13.0
     """
     path = Path(path)
     if rate is None:
@@ -52,10 +71,24 @@ def write_motion(path: str | Path, trajectory: Trajectory, *, rate: float | None
 
 
 def read_motion(path: str | Path, *, passages: Array | None = None) -> Trajectory:
-    """Read a motion written by ``write_motion``, or by anything else in these formats.
+    """Read a motion that ``write_motion`` or another program wrote in one of its formats.
 
-    passages: times at which the waypoints are passed, (n_waypoints,) [s]; every point if left out.
-    Raises InputError that names file, row and value.
+    Parameters
+    ----------
+    path : str or Path
+        A .json file, or a CSV file.
+    passages : Array, shape (n_waypoints,), optional
+        Times at which the waypoints are passed [s]. Left out: every point of the file is a waypoint.
+
+    Returns
+    -------
+    Trajectory
+        Quintics between the points.
+
+    Raises
+    ------
+    InputError
+        Names the file, the row and the value.
     """
     path = Path(path)
     try:

@@ -1,4 +1,4 @@
-"""What may be asked of a motion beyond its problem: times, stops, end velocities, other limits."""
+"""Conditions beyond the problem: passage times, stops, velocities at the ends, limits of single segments."""
 
 from __future__ import annotations
 
@@ -14,14 +14,29 @@ from formulations.problem.problem import Limits, Problem
 
 @dataclass(frozen=True)
 class Conditions:
-    """Conditions on a motion; all optional. Waypoints and segments count from 0.
+    """Conditions on a motion; all are optional. Waypoints and segments count from 0.
 
-    passage: waypoint -> time [s] from the start at which it is passed.
-    total: time of the whole motion [s]; the motion asked for is then the smoothest, not the fastest.
-    stops: waypoints at which the motion stands still: zero velocity, and zero acceleration for joints
-    with a jerk limit, as at both ends.
-    start_velocity, end_velocity: (dof,) [rad/s] in place of rest.
-    segment_limits: segment -> limits that replace the problem's there.
+    Parameters
+    ----------
+    passage : mapping of int to float
+        Time from the start at which a waypoint is passed [s].
+    total : float, optional
+        Time of the whole motion [s]. The motion asked for is then the smoothest, not the fastest.
+    stops : frozenset of int
+        Waypoints at which the motion stands still: zero velocity, and zero acceleration for joints with a
+        jerk limit, as at both ends.
+    start_velocity, end_velocity : Array, shape (dof,), optional
+        Velocities in place of rest [rad/s].
+    segment_limits : mapping of int to Limits
+        Limits that replace the problem's on a segment.
+
+    Examples
+    --------
+    >>> import formulations as f
+    >>> slow_middle = f.Limits.of(velocity=0.5, acceleration=2.0, dof=6)
+    >>> asked = f.Conditions(passage={1: 2.5}, stops=frozenset({2}), segment_limits={1: slow_middle})
+    >>> asked.times(f.load("sr4c"))
+    {1: 2.5}
     """
 
     passage: Mapping[int, float] = field(default_factory=dict)
@@ -38,7 +53,18 @@ class Conditions:
         return not (self.passage or self.stops or self.segment_limits) and all(v is None for v in given)
 
     def validate(self, problem: Problem) -> None:
-        """Raise InputError, with key and value, for what does not fit the problem."""
+        """Refuse conditions that do not fit a problem.
+
+        Parameters
+        ----------
+        problem : Problem
+            The problem that they are to be added to.
+
+        Raises
+        ------
+        InputError
+            In one line with key and value.
+        """
         last = problem.n_segments
         for key, waypoints in (("passage", self.passage), ("stops", self.stops)):
             for waypoint in waypoints:
@@ -112,17 +138,49 @@ class Conditions:
                 )
 
     def limits(self, problem: Problem) -> list[Limits]:
-        """The limits in force on each segment."""
+        """Return the limits in force on each segment.
+
+        Parameters
+        ----------
+        problem : Problem
+            Its limits hold where no others are given.
+
+        Returns
+        -------
+        list of Limits
+            One per segment.
+        """
         return [self.segment_limits.get(k, problem.limits) for k in range(problem.n_segments)]
 
     def derivatives(self, problem: Problem) -> Array:
-        """Velocity, acceleration and jerk limits in force, (3, n_segments, dof)."""
+        """Return the velocity, acceleration and jerk limits in force.
+
+        Parameters
+        ----------
+        problem : Problem
+            Its limits hold where no others are given.
+
+        Returns
+        -------
+        Array, shape (3, n_segments, dof)
+            [rad/s, rad/s^2, rad/s^3].
+        """
         return np.stack([limits.derivatives for limits in self.limits(problem)], axis=1)
 
     def position_bounds(self, problem: Problem) -> Array:
-        """Position limits in force per segment, (n_segments, dof, 2) [rad].
+        """Return the position limits in force.
 
-        Widened to the segment's own waypoints where limits are replaced, as the problem's are to all.
+        Limits of a segment are widened to its two waypoints, as the problem's are to all waypoints.
+
+        Parameters
+        ----------
+        problem : Problem
+            Its limits hold where no others are given.
+
+        Returns
+        -------
+        Array, shape (n_segments, dof, 2)
+            Least and greatest position [rad].
         """
         bounds = np.tile(problem.position_bounds, (problem.n_segments, 1, 1))
         for k, limits in self.segment_limits.items():
@@ -132,13 +190,35 @@ class Conditions:
         return bounds
 
     def end_velocities(self, problem: Problem) -> Array:
-        """Velocities at the start and at the end, (2, dof) [rad/s]."""
+        """Return the velocities at the start and at the end.
+
+        Parameters
+        ----------
+        problem : Problem
+            Its joints are at rest where no velocity is given.
+
+        Returns
+        -------
+        Array, shape (2, dof)
+            [rad/s].
+        """
         still = np.zeros(problem.dof)
         ends = (self.start_velocity, self.end_velocity)
         return np.stack([still if v is None else np.asarray(v, dtype=np.float64) for v in ends])
 
     def times(self, problem: Problem) -> dict[int, float]:
-        """Waypoints with a fixed time, that of the whole motion included; not waypoint 0."""
+        """Return the waypoints whose time is fixed, the last one if the total time is.
+
+        Parameters
+        ----------
+        problem : Problem
+            Its number of segments gives the last waypoint.
+
+        Returns
+        -------
+        dict of int to float
+            Times from the start [s]; waypoint 0 is left out.
+        """
         fixed = {waypoint: float(time) for waypoint, time in self.passage.items() if waypoint > 0}
         return fixed if self.total is None else {**fixed, problem.n_segments: float(self.total)}
 

@@ -1,10 +1,10 @@
-"""The few ways to misuse timebound. Each message is one line that names the key and the value."""
+"""The errors that timebound raises on purpose. Each message is one line that names the key and the value."""
 
 from __future__ import annotations
 
 
 class InputError(ValueError):
-    """Something a person typed or wrote into a file cannot be used; commands exit with code 2."""
+    """What a person typed or wrote into a file cannot be used; commands exit with code 2."""
 
     def __init__(self, message: str) -> None:
         super().__init__(" ".join(message.split()))  # one line, whatever names and files contain
@@ -15,11 +15,17 @@ class UnsupportedProblem(InputError):  # noqa: N818  # a refusal, not a failure
 
 
 class NoFeasibleMotion(RuntimeError):  # noqa: N818  # the answer, in a word
-    """No motion was found that keeps the position limits, or the conditions asked for."""
+    """No motion was found that keeps the position limits and the conditions asked for."""
 
 
 class OutOfReach(InputError):  # noqa: N818  # a refusal, not a failure
-    """No joint positions within the limits reach a pose. distance: by how much it is missed [m]."""
+    """No joint positions within the limits reach a pose.
+
+    Attributes
+    ----------
+    distance : float
+        How far the tool stays away from the pose's position [m].
+    """
 
     def __init__(self, message: str, distance: float) -> None:
         super().__init__(message)

@@ -1,4 +1,4 @@
-"""The task: waypoints a joint-space motion must pass, rest to rest, and the limits it must keep."""
+"""The problem: waypoints that a motion of the joints must pass, and the limits that it must keep."""
 
 from __future__ import annotations
 
@@ -13,18 +13,25 @@ from formulations.problem.errors import InputError
 
 POSITION_TOLERANCE = 1e-4  # rad a printed waypoint may lie outside its limit: rounding of tables
 
-# rad per (1 + largest |waypoint|) that a motion may leave the position limits by: rounding, of the
-# optimisers above all. One number for the check, the swarms' objective, the optimum and the bound.
+# rad per (1 + largest |waypoint|) by which a motion may leave the position limits. It covers rounding, most of
+# all that of the optimisers. The check, the swarms' objective, the optimum and the bound share this number.
 POSITION_SLACK = 1e-10
 
 
 @dataclass(frozen=True)
 class Limits:
-    """Symmetric limits on the derivatives and an interval for the position, per joint.
+    """Limits of each joint: symmetric ones on the derivatives, and an interval of positions.
 
-    velocity, acceleration, jerk: (dof,) in rad/s, rad/s^2, rad/s^3; the velocity is always limited,
-    ``inf`` means unlimited for the others.
-    position: (dof, 2) in rad, lower and upper; infinite where unlimited.
+    Make them with ``Limits.of``, which validates.
+
+    Attributes
+    ----------
+    velocity : Array, shape (dof,)
+        [rad/s]; always finite.
+    acceleration, jerk : Array, shape (dof,)
+        [rad/s^2], [rad/s^3]; infinite where unlimited.
+    position : Array, shape (dof, 2)
+        Least and greatest position [rad]; infinite where unlimited.
     """
 
     velocity: Array
@@ -41,9 +48,32 @@ class Limits:
         *,
         dof: int,
     ) -> Limits:
-        """Limits from one number for all joints or one per joint.
+        """Make limits from one number for all joints, or one per joint.
 
-        Raises InputError for a wrong length, NaN, or a limit that is not positive.
+        Parameters
+        ----------
+        velocity, acceleration, jerk : array_like, shape () or (dof,)
+            [rad/s, rad/s^2, rad/s^3]; the last two may be infinite.
+        position : array_like, shape (2,) or (dof, 2)
+            Least and greatest position [rad].
+        dof : int
+            Number of joints.
+
+        Returns
+        -------
+        Limits
+
+        Raises
+        ------
+        InputError
+            For another length, NaN, a limit that is not positive, a velocity that is not finite, or an
+            empty interval of positions.
+
+        Examples
+        --------
+        >>> limits = Limits.of(velocity=[1.5, 2.0], acceleration=5.0, dof=2)
+        >>> limits.acceleration.tolist(), limits.has_jerk
+        ([5.0, 5.0], False)
         """
         speeds = _per_joint("limits.velocity", velocity, dof)
         if not np.isfinite(speeds).all():
@@ -85,7 +115,20 @@ class Limits:
 class Problem:
     """Pass the waypoints in order, from rest to rest, within the limits, as fast as possible.
 
-    waypoints: (n_waypoints, dof) in rad. family: key of the spline family the task is posed in.
+    Make one with ``Problem.of``, or read it with ``load``; both validate.
+
+    Attributes
+    ----------
+    name : str
+    waypoints : Array, shape (n_waypoints, dof)
+        Joint positions [rad].
+    limits : Limits
+    family : str
+        Key in ``FAMILIES`` of the spline family in which the problem is posed.
+    title, source : str
+        For reports: a name for people, and where the numbers come from.
+    display_unit : str
+        "rad" or "deg": the unit of angles in reports.
     """
 
     name: str
@@ -107,7 +150,35 @@ class Problem:
         source: str = "",
         display_unit: str = "rad",
     ) -> Problem:
-        """A validated problem; raises InputError with one line that names key, joint and value."""
+        """Make a problem from waypoints and limits.
+
+        Parameters
+        ----------
+        waypoints : array_like, shape (n_waypoints, dof)
+            At least two joint positions [rad].
+        limits : Limits
+            Of as many joints. A waypoint may lie outside the position limits by 1e-4 rad, because printed
+            tables are rounded.
+        name, title, source, display_unit : str
+            As in ``Problem``.
+        family : str, optional
+            Left out, it is "3-5-3" for four waypoints and "4-3-4" otherwise.
+
+        Returns
+        -------
+        Problem
+
+        Raises
+        ------
+        InputError
+            In one line that names the key, the joint and the value.
+
+        Examples
+        --------
+        >>> problem = Problem.of([[0.0], [1.0], [0.5]], Limits.of(velocity=1.0, dof=1))
+        >>> problem.n_segments, problem.family
+        (2, '4-3-4')
+        """
         points = _numbers("waypoints", waypoints)
         if points.ndim != 2 or points.shape[1] < 1:
             raise InputError(
@@ -163,8 +234,8 @@ class Problem:
     def position_bounds(self) -> Array:
         """Position limits in force, (dof, 2) [rad].
 
-        Widened to the waypoints themselves: a printed waypoint can lie outside by rounding
-        (000, Table 5, joint 5), and no motion through it could keep the unrounded limit.
+        They are widened to the waypoints. A printed waypoint can lie outside by rounding (Wang 2025,
+        Table 5, joint 5), and no motion through it could keep the printed limit.
         """
         low = np.minimum(self.limits.position[:, 0], self.waypoints.min(axis=0))
         high = np.maximum(self.limits.position[:, 1], self.waypoints.max(axis=0))
@@ -176,7 +247,17 @@ class Problem:
         return POSITION_SLACK * (1.0 + float(np.abs(self.waypoints).max()))
 
     def joint(self, index: int) -> Problem:
-        """The same task for one joint alone, as the papers pose it."""
+        """Pose the same problem for one joint alone, as the papers do.
+
+        Parameters
+        ----------
+        index : int
+            The joint; counts from 0.
+
+        Returns
+        -------
+        Problem
+        """
         one = slice(index, index + 1)
         limits = self.limits
         return replace(
@@ -194,7 +275,7 @@ class Problem:
 
     @property
     def moving_joints(self) -> list[int]:
-        """Indices of the joints that move at all; the others keep every limit for any durations."""
+        """Indices of the joints that move; the others keep every limit, whatever the durations."""
         return [j for j in range(self.dof) if np.ptp(self.waypoints[:, j]) > 0.0]
 
 

@@ -1,15 +1,14 @@
-"""Certified lower bounds of spline families: branch and bound, or a chain of cells, in
-outward rounded arithmetic.
+"""Certified lower bounds of the total time; every operation that a bound rests on is rounded outward.
 
-outward             rounded arithmetic, and the lemma all proofs rest on
-rows, log           the conditions that are posed, the events that make a certificate
-proof               an attempt at one bound, run in slices so that a time limit is kept
-multipliers         a tiny linear program that proposes multipliers (nothing rests on it)
-quintic*            the quintic spline: domain, search, rows, multipliers
-chain, separable    cells of variables tied to their neighbours, and sums of shares on them
-intervals           interval arithmetic on whole arrays
-every_motion        what holds for every motion, so for B-splines
-three_five_three*   the 3-5-3 spline: domain, Lagrangian, rows, search, short middle segment
-four_three_four*    the 4-3-...-3-4 spline: domain, velocities, Lagrangian, rows, search
+family              the bound of a spline family, and the registry of provers
+alternation         proof and nonlinear program in turn, until they meet
+proof               an attempt to prove one bound, run in slices
+domain              displacements, limits and the domain of the durations, rounded outward
+conditions, events  the rows that are posed, the events that make a certificate
+multipliers         a small linear program that proposes multipliers (no proof depends on it)
 certificate         a proof as plain data, and on disk
+
+arithmetic          rounded arithmetic: scalars in compiled code, and intervals on whole arrays
+three_five_three, four_three_four, quintic     the provers of the families, a folder each
+every_motion        bounds that hold for every motion, so for B-splines too
 """

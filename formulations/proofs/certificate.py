@@ -1,15 +1,14 @@
-"""A finished proof as plain data, and on disk: JSON, every float as hexadecimal text, so nothing is
-lost.
+"""The certificate of a proof: plain data, and a JSON file with every float as hexadecimal text.
 
     format, family, name; waypoints, limits (null: unlimited), position_slack [rad]; seconds: the bound
     short      null, or for a middle segment of 3-5-3 on which nothing moves: tau, and what discards
                T2 <= tau, from the longest T1 down: ["p", lo, hi, joint, order, place, sign] a limit
                inside it, ["l", lo, hi] the last segment, for T1 in [lo, hi]
-    horizon    null, or for every motion, whatever its family ("every-motion"): H [s], and events as
-               ``relaxation.record`` has them
-    events     in depth-first order (see ``log``), the first letter says which:
+    horizon    null, or for a bound of every motion ("every-motion"): H [s]; its events are those of
+               ``every_motion.events``
+    events     in depth-first order (see ``events``), the first letter says which:
                ["T"] ["E"] ["S", k, value] ["L", rows] ["B", k, value, rows] ["A", k, value, rows]
-               without rows: those of the event before
+               an event without rows has those of the event before; the quintic's are in ``quintic.bound``
     a row      ["p", joint, segment, order, place, sign, multiplier]   a limit inside a piece
                ["j", joint, segment, sign, multiplier]                 the jerk across an open segment
                ["t", multiplier] total   ["f", multiplier] first   ["l", multiplier] last
@@ -28,9 +27,7 @@ import numpy as np
 from formulations.problem.arrays import Array
 from formulations.problem.files import write_text
 from formulations.problem.problem import Problem
-from formulations.proofs.events import ABOVE, BELOW, EMPTY, LEAF, SPLIT, TURN
-from formulations.proofs.proof import Proof
-from formulations.proofs.rows import (
+from formulations.proofs.conditions import (
     FIRST,
     JOINT,
     JUMP,
@@ -44,10 +41,12 @@ from formulations.proofs.rows import (
     SIGN,
     TOTAL,
 )
+from formulations.proofs.events import ABOVE, BELOW, EMPTY, LEAF, SPLIT, TURN
+from formulations.proofs.proof import Proof
 
 FORMAT = "timebound certificate 1"
-_LETTERS = {TURN: "T", EMPTY: "E", LEAF: "L", BELOW: "B", ABOVE: "A", SPLIT: "S"}
-_ALONE = {TOTAL: "t", FIRST: "f", LAST: "l"}
+_LETTER_OF_EVENT = {TURN: "T", EMPTY: "E", LEAF: "L", BELOW: "B", ABOVE: "A", SPLIT: "S"}
+_LETTER_OF_ROW = {TOTAL: "t", FIRST: "f", LAST: "l"}
 
 
 def certificate_of(
@@ -57,9 +56,25 @@ def certificate_of(
     short: dict[str, Any] | None = None,
     horizon: float | None = None,
 ) -> dict[str, Any]:
-    """The certificate of a bound [s]; without events, that of displacement over speed.
+    """Write down what proves a bound.
 
-    horizon: H [s], if it is a bound of every motion (``relaxation.record``), not of the family alone.
+    Parameters
+    ----------
+    problem : Problem
+        The problem that the bound is about.
+    seconds : float [s]
+        The bound.
+    events : list, optional
+        What proves it; without events, displacement over speed does.
+    short : dict, optional
+        For 3-5-3 with a middle segment on which nothing moves, see above.
+    horizon : float [s], optional
+        For a bound of every motion, not of the family alone.
+
+    Returns
+    -------
+    dict
+        Plain data, ready for ``json.dumps``.
     """
     limits = problem.limits
     return {
@@ -82,12 +97,38 @@ def certificate_of(
 
 
 def certificate_of_proof(problem: Problem, proof: Proof) -> dict[str, Any]:
-    """The certificate of what a recorded proof has proved."""
+    """Write down what a recorded attempt has proved so far.
+
+    Parameters
+    ----------
+    problem : Problem
+        The problem it is about.
+    proof : Proof
+        The attempt.
+
+    Returns
+    -------
+    dict
+        The certificate.
+    """
     return certificate_of(problem, proof.seconds, _events(problem, proof), _short(problem, proof))
 
 
 def write_certificate(path: str | Path, certificate: dict[str, Any]) -> None:
-    """Write a certificate whole or not at all. Raises InputError in one line."""
+    """Write a certificate to a file, whole or not at all.
+
+    Parameters
+    ----------
+    path : str or Path
+        The file.
+    certificate : dict
+        Plain data.
+
+    Raises
+    ------
+    InputError
+        If the file cannot be written.
+    """
     head = json.dumps({key: value for key, value in certificate.items() if key != "events"}, indent=1)
     lines = ",\n".join(json.dumps(event, separators=(",", ":")) for event in certificate["events"])
     write_text(path, f'{head[:-2]},\n "events": [\n{lines}\n]\n}}\n')
@@ -101,9 +142,9 @@ def _hex(values: Array) -> Any:
 
 
 def _short(problem: Problem, proof: Proof) -> Any:
-    if proof.setup.short is None:
+    if proof.search.short is None:
         return None
-    tau, leaves = proof.setup.short
+    tau, leaves = proof.search.short
     discards: list[list[Any]] = []
     for lo, hi, j, order, place, sign in leaves.tolist():
         where = [lo.hex(), hi.hex()]
@@ -116,14 +157,14 @@ def _short(problem: Problem, proof: Proof) -> Any:
 
 
 def _events(problem: Problem, proof: Proof) -> list[list[Any]]:
-    if proof.setup.anytime is not None:
-        return proof.setup.anytime.events
+    if proof.search.anytime is not None:
+        return proof.search.anytime.events
     log = proof.log()
     moving = problem.moving_joints
     events: list[list[Any]] = []
     before = b""
     for (code, k, count), value, rows in zip(log.codes.tolist(), log.values, log.rows, strict=True):
-        event: list[Any] = [_LETTERS[code]]
+        event: list[Any] = [_LETTER_OF_EVENT[code]]
         if code in (BELOW, ABOVE, SPLIT):
             event += [k, float(value).hex()]
         if code in (BELOW, ABOVE, LEAF):
@@ -137,8 +178,8 @@ def _events(problem: Problem, proof: Proof) -> list[list[Any]]:
 
 def _row(row: list[float], moving: list[int]) -> list[Any]:
     multiplier = (row[MULTIPLIER] / row[SCALE]).hex()
-    if row[KIND] in _ALONE:
-        return [_ALONE[row[KIND]], multiplier]
+    if row[KIND] in _LETTER_OF_ROW:
+        return [_LETTER_OF_ROW[row[KIND]], multiplier]
     joint, segment, sign = moving[int(row[JOINT])], int(row[SEGMENT]), int(row[SIGN])
     if row[KIND] == JUMP:
         return ["j", joint, segment, sign, multiplier]

@@ -1,16 +1,16 @@
-"""The certified global lower bound of a spline family, and the optimum it meets.
+"""The certified global lower bound of a spline family, and the registry of provers.
 
 Branch and bound proves that no durations of the family take L seconds or less, for L = upper / (1 +
-gap) (``bounds``); every operation that carries the proof is rounded outward. The NLP gives the upper
-bound to start from; where the proof cannot discard a box, the NLP starts again from its middle, and the
-proof from whatever better basin that finds, until they meet.
+gap), where ``upper`` is the time of a verified motion. Every operation that carries the proof is rounded
+outward. ``alternation`` lets proof and nonlinear program work in turn until they meet.
 
 What the bound covers. It holds for every choice of durations whose spline keeps the velocity,
 acceleration and jerk limits exactly and the position limits to within ``problem.position_slack``, the
-slack of the check and of the swarms' objective. The check also lets a relative excess of ``TOLERANCE``
-over the derivative limits pass. Stretching by 1 + TOLERANCE mends that (jerk and acceleration fall
-faster than velocity), so what the check lets pass takes at least ``seconds / (1 + TOLERANCE)``:
-``least_verified``. The bound is kept for the exact limits, as those are what the problem states.
+slack of the check and of the swarms' objective. The check also accepts a relative excess of
+``TOLERANCE`` over the derivative limits. A stretch by 1 + TOLERANCE removes this excess (acceleration
+and jerk fall faster than velocity), so a motion that passes the check takes at least
+``seconds / (1 + TOLERANCE)``: ``least_verified``. The bound itself is for the exact limits, because
+these are what the problem states.
 """
 
 from __future__ import annotations
@@ -18,24 +18,23 @@ from __future__ import annotations
 import time
 from collections.abc import Callable
 from dataclasses import dataclass, field, replace
-from enum import StrEnum
-from functools import partial
 from typing import Any
 
 import numpy as np
 
 from formulations.families import FAMILIES
-from formulations.motion.trajectory import TOLERANCE, check
-from formulations.optima.family.optimum import FamilyOptimum, family_optimum, polished
+from formulations.motion.verdict import TOLERANCE
+from formulations.optima.family.optimum import FamilyOptimum, family_optimum
 from formulations.problem.arrays import Array
 from formulations.problem.errors import InputError, NoFeasibleMotion
 from formulations.problem.problem import Problem
+from formulations.proofs.alternation import Alternation, BoundStatus, verified
 from formulations.proofs.certificate import certificate_of, certificate_of_proof
 from formulations.proofs.displacement import exceeded_time
 from formulations.proofs.domain import data_of
-from formulations.proofs.every_motion.velocity_acceleration import every_motion
+from formulations.proofs.every_motion.velocity_acceleration import velocity_acceleration_bound
 from formulations.proofs.four_three_four import bound as four_three_four
-from formulations.proofs.proof import Proof, Prover
+from formulations.proofs.proof import Prover
 from formulations.proofs.quintic import bound as quintic
 from formulations.proofs.three_five_three import bound as three_five_three
 
@@ -45,35 +44,39 @@ PROVERS: dict[str, Prover] = {
     "quintic": quintic.begin,
 }
 
-# of a B-spline each piece depends on every duration: enclosures are of use only on boxes so narrow that
-# there are too many
+# each piece of a B-spline depends on every duration: enclosures are narrow only on very small boxes, of
+# which there would be too many
 _EVERY_MOTION = "what is proved holds for every motion through the waypoints, not for B-splines alone"
 
-_STRAIGHT = 0.1  # share of the time limit for going straight to the gap that was asked for
-_SLICE = 0.02  # s between looks at the clock
 _SMALLEST = 1e-150  # rad; squares and quotients of smaller displacements leave the range of floats
-_RESTARTS = 30  # better basins the proof may find
-_BETTER = 1e-12  # relative; less is rounding
-_LOOK, _FIRST_LOOK = 9.0, 0.03  # times what the NLP took [s], before it is asked again; at first
-
-
-class ProofStatus(StrEnum):
-    """How the proof of a family's bound ended; whatever it is, the bound holds."""
-
-    PROVED = "proved"  # the gap that was asked for
-    TIME_LIMIT = "time limit"
-    UNDECIDED = "undecided"  # for the reason given
-    NOT_APPLICABLE = "not-applicable"  # for the reason given: only the displacements count
 
 
 @dataclass(frozen=True)
 class FamilyBound:
     """What is proved of one family: no durations are faster than ``seconds``.
 
-    seconds: certified lower bound [s], valid whatever the status; 0 at worst. durations: the best
-    found, (n_segments,) [s], None if none are known; upper: their verified total [s]. boxes: of all
-    attempts. runtime: s of this machine, NLP and compilation included. status, reason: how the
-    proof ended, and why if undecided or not applicable. certificate: plain data, if recorded.
+    Attributes
+    ----------
+    problem : Problem
+        The problem, with the family that the bound is about.
+    family : str
+        Name of the family.
+    seconds : float [s]
+        Certified lower bound, valid whatever the status; 0 at worst.
+    durations : Array, shape (n_segments,) [s], or None
+        The best durations found.
+    upper : float [s]
+        Their verified total.
+    boxes : int
+        Boxes of all attempts.
+    runtime : float [s]
+        On this machine, NLP and compilation included.
+    status : BoundStatus
+        How the proof ended.
+    reason : str
+        Why it is undecided or not applicable; empty otherwise.
+    certificate : dict or None
+        The proof as plain data, if it was recorded.
     """
 
     problem: Problem
@@ -83,14 +86,9 @@ class FamilyBound:
     upper: float
     boxes: int
     runtime: float
-    status: ProofStatus
-    certificate: dict[str, Any] | None = field(default=None, repr=False)
+    status: BoundStatus
     reason: str = ""
-
-    @property
-    def state(self) -> str:
-        """Status and reason in one line."""
-        return f"{self.status}: {self.reason}" if self.reason else str(self.status)
+    certificate: dict[str, Any] | None = field(default=None, repr=False)
 
     @property
     def gap(self) -> float:
@@ -100,10 +98,15 @@ class FamilyBound:
         return 0.0 if self.upper == 0.0 else float("inf")
 
     @property
+    def outcome(self) -> str:
+        """Status and reason in one line."""
+        return f"{self.status}: {self.reason}" if self.reason else str(self.status)
+
+    @property
     def least_verified(self) -> float:
         """No motion of the family that passes the check is faster than this [s].
 
-        Its tolerance, and a thousandth of that for the rounding of the check itself.
+        The margin is the check's tolerance, and a thousandth of it for the rounding of the check itself.
         """
         return self.seconds * (1.0 - 1.001 * TOLERANCE)
 
@@ -118,13 +121,39 @@ def family_bound(
     record: bool = False,
     progress: Callable[[float, int], None] | None = None,
 ) -> FamilyBound:
-    """Prove a lower bound on the total time of a family's splines, durations shared by all joints.
+    """Prove a lower bound on the total time of a family's splines, with durations shared by all joints.
 
-    gap: relative gap asked for. time_limit: s for the proof, apart from the NLP and from compiling;
-    when it ends, the best bound proved by then is returned. optimum: start from it instead of solving
-    the NLP. record: keep the certificate of the bound. progress(seconds, boxes): called as the proof
-    goes on. One joint alone: pass ``problem.joint(j)``. Raises UnsupportedProblem where the family has
-    no spline, InputError for a gap that is not positive.
+    For the bound of one joint alone, pass ``problem.joint(j)``.
+
+    Parameters
+    ----------
+    problem : Problem
+        Waypoints and limits.
+    family : str, optional
+        Name of the spline family; the problem's own by default.
+    gap : float
+        Relative gap asked for.
+    time_limit : float [s]
+        For the proof, apart from the NLP and from compiling. When it ends, the best bound proved so far
+        is returned.
+    optimum : FamilyOptimum, optional
+        Motion to start from; by default the NLP is solved.
+    record : bool
+        Whether to keep the certificate.
+    progress : callable, optional
+        Is called with the bound so far [s] and the number of boxes.
+
+    Returns
+    -------
+    FamilyBound
+        The bound and how the proof ended.
+
+    Raises
+    ------
+    UnsupportedProblem
+        If the family has no spline for this problem.
+    InputError
+        If the gap is not positive, or the time limit negative.
     """
     started = time.perf_counter()
     if not (gap > 0.0 and np.isfinite(gap)):
@@ -134,59 +163,66 @@ def family_bound(
     chosen = FAMILIES[family or problem.family]
     chosen.require(problem)
     problem = replace(problem, family=chosen.name)
-    answer = partial(_answer, problem, started)
+
+    def answer(
+        seconds: float,
+        durations: Array | None,
+        upper: float,
+        status: BoundStatus,
+        reason: str = "",
+        *,
+        boxes: int = 0,
+        certificate: dict[str, Any] | None = None,
+    ) -> FamilyBound:
+        runtime = time.perf_counter() - started
+        return FamilyBound(
+            problem, chosen.name, seconds, durations, upper, boxes, runtime, status, reason, certificate
+        )
+
     if not problem.moving_joints:
-        return answer(0.0, np.full(problem.n_segments, 0.0), 0.0, 0, ProofStatus.PROVED)
+        return answer(0.0, np.full(problem.n_segments, 0.0), 0.0, BoundStatus.PROVED)
     simple = exceeded_time(problem)
-    reason = _refusal(problem)
-    if reason:
+    if reason := _refusal(problem):
         known = None if optimum is None else optimum.durations
         upper = np.inf if optimum is None else optimum.seconds
-        return answer(simple, known, upper, 0, ProofStatus.NOT_APPLICABLE, reason=reason)
+        return answer(simple, known, upper, BoundStatus.NOT_APPLICABLE, reason)
     try:
         found = (optimum or family_optimum(problem)).durations
     except NoFeasibleMotion as failure:
-        return answer(simple, None, np.inf, 0, ProofStatus.NOT_APPLICABLE, reason=str(failure))
+        return answer(simple, None, np.inf, BoundStatus.NOT_APPLICABLE, str(failure))
     if chosen.name not in PROVERS:
-        motions = every_motion(problem)
+        motions = velocity_acceleration_bound(problem)
         events = motions.events(problem.moving_joints) if motions.seconds > simple else []
         seconds = max(simple, motions.seconds)
-        found, upper = _verified(problem, found)
-        met = upper <= seconds * (1.0 + gap)
-        status, reason = (ProofStatus.PROVED, "") if met else (ProofStatus.UNDECIDED, _EVERY_MOTION)
+        found, upper = verified(problem, found)
         certificate = certificate_of(problem, seconds, events) if record else None
-        return answer(seconds, found, upper, 0, status, certificate, reason)
-    pursuit = _Pursuit(problem, PROVERS[chosen.name], found, record, progress)
-    status, reason = pursuit.run(gap, time_limit)
-    proof, certificate = pursuit.best, None
-    seconds = max(simple, proof.seconds if proof else 0.0)
+        if upper <= seconds * (1.0 + gap):
+            return answer(seconds, found, upper, BoundStatus.PROVED, certificate=certificate)
+        return answer(
+            seconds, found, upper, BoundStatus.UNDECIDED, _EVERY_MOTION, certificate=certificate
+        )
+    prover = PROVERS[chosen.name]
+    alternation = Alternation(problem, prover, found, least=simple, record=record, progress=progress)
+    status, reason = alternation.run(gap, time_limit)
+    proof, certificate = alternation.best, None
     if record:
         if proof is not None and proof.seconds >= simple:
             certificate = certificate_of_proof(problem, proof)
         else:
             certificate = certificate_of(problem, simple)
-    return answer(seconds, pursuit.durations, pursuit.upper, pursuit.boxes, status, certificate, reason)
-
-
-def _answer(
-    problem: Problem,
-    started: float,
-    seconds: float,
-    durations: Array | None,
-    upper: float,
-    boxes: int,
-    status: ProofStatus,
-    certificate: dict[str, Any] | None = None,
-    reason: str = "",
-) -> FamilyBound:
-    runtime = time.perf_counter() - started
-    return FamilyBound(
-        problem, problem.family, seconds, durations, upper, boxes, runtime, status, certificate, reason
+    return answer(
+        max(simple, proof.seconds if proof else 0.0),
+        alternation.durations,
+        alternation.upper,
+        status,
+        reason,
+        boxes=alternation.boxes,
+        certificate=certificate,
     )
 
 
 def _refusal(problem: Problem) -> str:
-    """Why no bound beyond the displacements can be proved; empty if one can."""
+    """Why nothing beyond displacement over speed can be proved; empty if more can."""
     data = data_of(problem)
     unlimited = np.isinf(data.derivatives).all(axis=0)
     if unlimited.any():
@@ -195,125 +231,3 @@ def _refusal(problem: Problem) -> str:
     if (data.least[data.d != 0.0] < _SMALLEST).any():
         return f"a displacement is smaller than {_SMALLEST:g} rad"
     return ""
-
-
-def _verified(problem: Problem, durations: Array) -> tuple[Array, float]:
-    """Durations stretched to feasibility and their total [s], infinite if they do not pass the check."""
-    family = FAMILIES[problem.family]
-    stretched = durations * check(problem, family.trajectory(problem, durations)).stretch
-    if not (np.isfinite(stretched).all() and (stretched > 0.0).all()):
-        return durations, np.inf
-    verdict = check(problem, family.trajectory(problem, stretched))
-    return stretched, verdict.seconds if verdict.feasible else np.inf
-
-
-class _Pursuit:
-    """Proof and NLP in turn: ``best`` is the best proof so far, ``upper`` the best motion's time."""
-
-    def __init__(
-        self,
-        problem: Problem,
-        begin: Prover,
-        durations: Array,
-        record: bool,
-        progress: Callable[[float, int], None] | None,
-    ) -> None:
-        self.problem, self.begin, self.record, self.progress = problem, begin, record, progress
-        self.simple = exceeded_time(problem)
-        self.boxes, self.restarts = 0, 0
-        self.best: Proof | None = None
-        self.upper, self.durations = np.inf, durations
-        self._adopt(durations)
-        if not np.isfinite(self.upper):
-            raise InputError("optimum: its motion does not pass the check")
-        first = self._attempt(self.upper)
-        first.run(1)  # compiles what a search needs, before the clock runs
-        self.anytime = first.setup.anytime is not None
-        self.deadline = np.inf
-
-    def run(self, gap: float, time_limit: float) -> tuple[ProofStatus, str]:
-        """Straight to the gap if that is cheap, else from coarse to fine: no time is lost.
-
-        Where an unfinished attempt proves something too, straight to the gap all the time.
-        """
-        started = time.perf_counter()
-        self.deadline = started + (1.0 if self.anytime else _STRAIGHT) * time_limit
-        outcome = self._pursue(gap)
-        if outcome[0] is ProofStatus.PROVED or self.anytime:
-            return outcome
-        self.deadline = started + time_limit
-        rungs = [10.0**-e for e in range(12) if 10.0**-e > 2.0 * gap]
-        for rung in [*rungs, gap]:
-            if self.best is not None and self.upper / (1.0 + rung) <= self.best.seconds:
-                continue
-            outcome = self._pursue(rung)
-            if outcome[0] is not ProofStatus.PROVED:
-                return outcome
-        return ProofStatus.PROVED, ""
-
-    def _pursue(self, gap: float) -> tuple[ProofStatus, str]:
-        """Prove upper / (1 + gap), from better and better motions as the proof finds them."""
-        while True:
-            # a little finer than asked, so that rounding does not leave the gap a digit above it
-            # and never for less than the displacements give
-            proof = self._attempt(max(self.upper / (1.0 + gap * (1.0 - 1e-6)), self.simple))
-            improved = self._run(proof)
-            if proof.seconds > (self.best.seconds if self.best else 0.0):
-                self.best = proof
-            if proof.proved:
-                return ProofStatus.PROVED, ""
-            if improved:
-                self.restarts += 1
-                continue
-            if not proof.stuck:
-                return ProofStatus.TIME_LIMIT, ""
-            if proof.setup.impossible:
-                return ProofStatus.UNDECIDED, proof.setup.impossible
-            self.restarts += 1
-            if not self._improve(proof.durations()) or self.restarts > _RESTARTS:
-                middle = np.array2string(proof.durations(), precision=6)
-                return ProofStatus.UNDECIDED, f"the box about {middle} s"
-
-    def _attempt(self, L: float) -> Proof:
-        return Proof(self.begin(self.problem, L, near=self.durations), L, record=self.record)
-
-    def _run(self, proof: Proof) -> bool:
-        """Run an attempt until it ends, the time does, or (then true) a better motion is found.
-
-        For one, the NLP looks near what an anytime attempt cannot discard, a tenth of the time.
-        """
-        slice_, looked, cost = 32, time.perf_counter(), _FIRST_LOOK
-        while not (proof.proved or proof.stuck):
-            before, clock = proof.boxes, time.perf_counter()
-            if clock >= self.deadline:
-                break
-            proof.run(slice_)
-            took = max(time.perf_counter() - clock, 1e-6)
-            slice_ = int(min(max((proof.boxes - before) * _SLICE / took, 1.0), 2.0 * slice_))
-            self.boxes += proof.boxes - before
-            if self.progress is not None:
-                self.progress(self.best.seconds if self.best else 0.0, self.boxes)
-            clock = time.perf_counter()
-            looks = self.anytime and not proof.proved and self.restarts < _RESTARTS
-            if looks and clock - looked > _LOOK * cost:
-                if self._improve(proof.durations()):
-                    return True
-                looked = time.perf_counter()
-                cost = looked - clock
-        return False
-
-    def _improve(self, guess: Array) -> bool:
-        """Whether the NLP finds a better motion from the durations of an undecided box."""
-        before, paused = self.upper, time.perf_counter()
-        self._adopt(guess)
-        local = polished(self.problem, guess)
-        if np.isfinite(local.seconds):
-            self._adopt(local.durations)
-        self.deadline += time.perf_counter() - paused  # the limit is the proof's alone
-        return self.upper < before * (1.0 - _BETTER)
-
-    def _adopt(self, durations: Array) -> None:
-        """Keep durations, stretched to feasibility, if they beat the best and pass the check."""
-        stretched, seconds = _verified(self.problem, durations)
-        if seconds < self.upper:
-            self.upper, self.durations = seconds, stretched

@@ -1,8 +1,8 @@
 """Multipliers for a discard, from a linear program of a few rows and columns.
 
-About the centre of a box the conditions are a_i + g_i . e <= 0, e in [-1, 1]^n, to first order. The
-multipliers that make their weighted sum most positive at its worst e are the ones worth trying. Nothing
-rests on the answer being right: whatever comes out is judged by the rounded Lagrangian.
+To first order about the centre of a box, the conditions are a_i + g_i . e <= 0 with e in [-1, 1]^n. The
+multipliers worth trying make the least value of their weighted sum over e as large as possible. The
+proof does not depend on this: the Lagrangian, rounded outward, judges whatever multipliers come out.
 """
 
 from __future__ import annotations
@@ -16,17 +16,31 @@ from formulations.compiled import compiled
 
 @compiled
 def minimax(a: Any, g: Any, m: int, n: int, lam: Any, iterations: int) -> float:
-    """Multipliers of  min over d in [-1, 1]^n of max_i a_i + g_i . d,  by primal simplex on the dual.
+    """Solve  max_l sum l_i a_i - sum_k |sum_i l_i g_ik|,  l >= 0, sum l = 1,  by the primal simplex method.
 
-        max_l  sum l_i a_i - sum_k |sum_i l_i g_ik|,   l >= 0, sum l = 1.
+    This is the dual of  min over e in [-1, 1]^n of max_i a_i + g_i . e.
 
-    a: (m,), g: (m, n). Writes l into lam (m,), returns its (unrounded) value.  Nothing rests on the
-    answer being right: whatever l comes out is judged by the rounded evaluation.
+    Parameters
+    ----------
+    a : ndarray, shape (at least m,)
+        Values at the centre.
+    g : ndarray, shape (at least m, n)
+        Slopes.
+    m, n : int
+        Rows and variables.
+    lam : ndarray, shape (at least m,)
+        Is filled with the multipliers l.
+    iterations : int
+        Most simplex steps.
+
+    Returns
+    -------
+    float
+        The value reached, not rounded.
     """
     size = n + 1
-    basis = np.empty(
-        size, np.int64
-    )  # i < m: l_i;  m + k: u_k (column +e_k);  m + n + k: w_k (column -e_k)
+    # i < m: l_i;  m + k: u_k (column +e_k);  m + n + k: w_k (column -e_k)
+    basis = np.empty(size, np.int64)
     inverse = np.zeros((size, size))
     best = 0
     for i in range(m):

@@ -1,9 +1,9 @@
-"""COPP (``copp-py``): the jerk-limited optimum along a fixed path, by a sequence of conic programs.
+"""COPP (``copp-py``): the fastest jerk-limited motion along a fixed path, by a sequence of conic programs.
 
-The path is given by the motion's own time, in which a = (ds/dt)^2 = 1 is the motion itself: feasible,
-so the jerk rows can be linearised there to begin with, and then at each better profile in turn. As the
-path stands still in that parameter at both ends, any a there is a start from rest; a = 1 is kept. The
-result is a discretised one: it states its grid and what the last doubling changed.
+The path is parameterised by the time of the given motion, so that a = (ds/dt)^2 = 1 is that motion. It is
+feasible: the jerk constraints are linearised there first, and then at each better profile in turn. The
+derivative of the path is zero at both ends, so that any a there starts from rest; a = 1 is kept. The result
+is discretised: the grid is doubled once, and the change is stated.
 """
 
 from __future__ import annotations
@@ -20,11 +20,24 @@ from formulations.references.reference import Kind, Outcome, Rung, Takes
 _GRIDS = (24, 48)  # intervals per piece
 _SETTLED = 1e-5  # relative change of the time at which linearising again ends
 _TURNS = 12
-_FLOOR = 1e-9  # of a, where the motion all but stands still inside
+_FLOOR = 1e-9  # of a, where the motion inside nearly stops
 
 
 def copp_on(problem: Problem, path: Trajectory) -> Outcome:
-    """Jerk-limited optimum on the path of a motion that keeps the limits; ``copp-py`` if installed."""
+    """Time the path of a motion as fast as all derivative limits allow.
+
+    Parameters
+    ----------
+    problem : Problem
+        With a jerk limit on some joint.
+    path : Trajectory
+        A motion through the waypoints that keeps the limits.
+
+    Returns
+    -------
+    Outcome
+        Not applicable without ``copp-py`` or without a jerk limit; its note states the grid error.
+    """
     try:
         import copp_py
     except ImportError:
@@ -50,7 +63,7 @@ def copp_on(problem: Problem, path: Trajectory) -> Outcome:
 def _refined(
     problem: Problem, path: Trajectory, grid: int, before: tuple[Array, Array, Array] | None
 ) -> tuple[float, tuple[Array, Array, Array]]:
-    """Time [s] on one grid, and the profile (s, a, b); before: the profile of a coarser grid."""
+    """Solve on one grid: the time [s] and the profile (s, a, b). before: the profile of a coarser grid."""
     from copp_py.interpolation import s_to_t_topp3
     from copp_py.robot import Robot
     from copp_py.solver import topp3_socp

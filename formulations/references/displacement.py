@@ -8,7 +8,18 @@ from formulations.references.reference import Kind, Outcome, Rung
 
 
 def displacement(problem: Problem) -> Outcome:
-    """Lower bound on every motion through the waypoints (``proofs.displacement``)."""
+    """Bound every motion through the waypoints from below (``proofs.displacement``).
+
+    Parameters
+    ----------
+    problem : Problem
+        Its waypoints and velocity limits.
+
+    Returns
+    -------
+    Outcome
+        With the least duration of each segment.
+    """
     return Outcome.ok(
         displacement_bound(problem),
         durations=displacement_durations(problem),

@@ -1,7 +1,7 @@
-"""Ruckig (Berscheid & Kroeger 2021): time-optimal, jerk-limited motion between two states of rest.
+"""Ruckig (Berscheid & Kroeger 2021): the fastest jerk-limited motion between two states of rest.
 
-End to end, the inner waypoints ignored, it is a relaxation: a lower bound. Stopping at every
-waypoint it is a feasible motion: an upper bound, and what an engineer has offline today.
+From the first waypoint to the last, without those between, it solves a relaxed problem: a lower bound. With
+a stop at every waypoint it is a feasible motion: an upper bound, and what an engineer has offline today.
 """
 
 from __future__ import annotations
@@ -12,7 +12,8 @@ from itertools import pairwise
 import numpy as np
 import ruckig
 
-from formulations.motion.trajectory import Trajectory, check
+from formulations.motion.trajectory import Trajectory
+from formulations.motion.verdict import check
 from formulations.problem.arrays import Array
 from formulations.problem.problem import Problem
 from formulations.proofs.rest_to_rest import end_to_end_bound
@@ -20,7 +21,18 @@ from formulations.references.reference import Kind, Outcome, Rung
 
 
 def ruckig_end_to_end(problem: Problem) -> Outcome:
-    """First to last waypoint, inner ones ignored; confirmed by the closed form of each joint."""
+    """Time the motion from the first waypoint to the last, without those between.
+
+    Parameters
+    ----------
+    problem : Problem
+        Every joint needs an acceleration limit.
+
+    Returns
+    -------
+    Outcome
+        Its number is the proved closed form (``proofs.rest_to_rest``), which Ruckig has to confirm.
+    """
     outcome = _through(problem, problem.waypoints[[0, -1]])
     if outcome.seconds is None:
         return outcome
@@ -32,7 +44,18 @@ def ruckig_end_to_end(problem: Problem) -> Outcome:
 
 
 def ruckig_stop_and_go(problem: Problem) -> Outcome:
-    """Full stop at each waypoint."""
+    """Time the motion that stops at each waypoint.
+
+    Parameters
+    ----------
+    problem : Problem
+        Every joint needs an acceleration limit.
+
+    Returns
+    -------
+    Outcome
+        With the motion, which has passed the check.
+    """
     return _through(problem, problem.waypoints)
 
 
@@ -65,7 +88,7 @@ def _through(problem: Problem, points: Array) -> Outcome:
 
 
 def _rest_to_rest(problem: Problem, start: Array, end: Array) -> tuple[Array, Array] | str:
-    """Durations (m,) and coefficients (m, dof, 4) of one motion, or what went wrong."""
+    """Compute durations (m,) and coefficients (m, dof, 4) of one motion, or say what went wrong."""
     limits = problem.limits
     task = ruckig.InputParameter(problem.dof)
     task.current_position, task.target_position = start.tolist(), end.tolist()
@@ -83,23 +106,48 @@ def _rest_to_rest(problem: Problem, start: Array, end: Array) -> tuple[Array, Ar
 
 
 def first_line(refusal: Exception) -> str:
-    """What Ruckig objects to, without the input it repeats."""
+    """Extract Ruckig's objection from its message, which repeats the whole input.
+
+    Parameters
+    ----------
+    refusal : Exception
+        As Ruckig raised it.
+
+    Returns
+    -------
+    str
+        One line.
+    """
     lines = [line.strip() for line in str(refusal).splitlines() if line.strip()]
     return lines[0].removesuffix(" input:") if lines else type(refusal).__name__
 
 
 def pieces_of(answer: ruckig.Trajectory, start: Array) -> tuple[Array, Array]:
-    """A Ruckig trajectory as polynomial pieces common to all joints.
+    """Convert a Ruckig trajectory to polynomial pieces that are common to all joints.
 
-    Only the phase times and the jerks (without a jerk limit: accelerations) are taken from Ruckig's
-    profiles; positions and velocities are integrated here, so that the motion is what it says.
+    Only the phase times and the jerks (without a jerk limit: the accelerations) are taken from Ruckig.
+    Velocities and positions are integrated here, so that the pieces fit together exactly.
+
+    Parameters
+    ----------
+    answer : ruckig.Trajectory
+        A motion of one section, from rest.
+    start : Array, shape (dof,)
+        Its first position [rad].
+
+    Returns
+    -------
+    durations : Array, shape (m,)
+        [s].
+    coefficients : Array, shape (m, dof, 4)
+        Ascending, of the local time [rad/s^k].
     """
     profiles = answer.profiles[0]
     phase_ends = [np.cumsum(profile.t) for profile in profiles]
     end = float(answer.duration)
     breaks = np.unique(np.concatenate([[0.0, end], *phase_ends]))
     breaks = breaks[breaks <= end]
-    # times that differ by rounding alone are one break
+    # times that differ by no more than rounding are one break
     breaks = np.append(breaks[:-1][np.diff(breaks) > 1e-12 * end], end)
     durations = np.diff(breaks)
     middles = breaks[:-1] + 0.5 * durations

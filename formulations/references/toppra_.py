@@ -1,9 +1,9 @@
-"""TOPP-RA (Pham & Pham 2018): time-optimal motion along a fixed path, velocity and acceleration limits.
+"""TOPP-RA (Pham & Pham 2018): the fastest motion along a fixed path, with velocity and acceleration limits.
 
-The path is that of the family optimum, or the clamped cubic through the waypoints. Both stand still
-in their own parameter at both ends (a 3-5-3 spline starts as t^3), where TOPP-RA cannot start, so
-the path is given by its arc length in joint space scaled by the velocity limits. The result is a
-discretised one; the grid is refined and what the last doubling changed is stated as its error.
+The path is that of the family optimum, or the clamped cubic through the waypoints. At both ends their
+derivative by their own parameter is zero (a 3-5-3 spline starts as t^3), and TOPP-RA cannot start there.
+Therefore the path is parameterised by its arc length, in joint space scaled by the velocity limits. The
+result is discretised: the grid is doubled until the time changes little, and the last change is stated.
 """
 
 from __future__ import annotations
@@ -24,11 +24,24 @@ from formulations.references.reference import Kind, Outcome, Rung, Takes
 _GRIDS = (100, 200, 400, 800, 1600)  # intervals per path piece, coarse to fine
 _GRID_ERROR = 2e-4  # refine until doubling the grid changes the duration by less
 
-logging.getLogger("toppra").setLevel(logging.CRITICAL)  # its failures become our statuses
+logging.getLogger("toppra").setLevel(logging.CRITICAL)  # its failures are reported as statuses
 
 
 def toppra_on(problem: Problem, path: Trajectory) -> Outcome:
-    """TOPP-RA on the path of a motion through the waypoints; no jerk limit."""
+    """Time the path of a motion as fast as velocity and acceleration limits allow.
+
+    Parameters
+    ----------
+    problem : Problem
+        Its jerk and position limits are not used.
+    path : Trajectory
+        A motion through the waypoints, from rest to rest.
+
+    Returns
+    -------
+    Outcome
+        Its note states the grid and the grid error.
+    """
     if not problem.moving_joints:
         return Outcome.ok(0.0, note="nothing moves")
     results: list[tuple[int, float]] = []
@@ -52,7 +65,18 @@ def toppra_on(problem: Problem, path: Trajectory) -> Outcome:
 
 
 def toppra_cubic(problem: Problem) -> Outcome:
-    """TOPP-RA on the clamped cubic spline through the waypoints, knots by displacement time."""
+    """Time the clamped cubic spline through the waypoints, whose knots are at displacement times.
+
+    Parameters
+    ----------
+    problem : Problem
+        Its jerk and position limits are not used.
+
+    Returns
+    -------
+    Outcome
+        Its note states the grid and the grid error.
+    """
     if not problem.moving_joints:
         return Outcome.ok(0.0, note="nothing moves")
     times = displacement_durations(problem)
@@ -65,11 +89,11 @@ def toppra_cubic(problem: Problem) -> Outcome:
 
 
 class _ArcLength(toppra.interpolator.AbstractGeometricPath):  # type: ignore[misc]  # untyped base
-    """A motion's path by arc length, evaluated on its own grid alone.
+    """A motion's path by arc length; it can be evaluated at the points of its grid only.
 
-    With u(t) = q'(t) / |q'(t)| the first derivative by arc length is u and the second u'/|q'|. At an
-    end where q' vanishes both are limits: u from the lowest power of t that moves, and the second is
-    set to 0, where the path speed is 0 and its value has no weight.
+    With u(t) = q'(t) / |q'(t)|, the first derivative by arc length is u and the second one u'/|q'|. At an end
+    where q' = 0 both are limits. The first is taken from a point just inside. The second is set to 0: the
+    path speed is 0 there, so that its value has no weight.
     """
 
     def __init__(self, problem: Problem, path: Trajectory, grid: int) -> None:
@@ -96,7 +120,7 @@ class _ArcLength(toppra.interpolator.AbstractGeometricPath):  # type: ignore[mis
         if not np.isfinite(directions).all():
             self.fault = "the path stands still inside"
         elif (np.sum(directions[1:] * directions[:-1], axis=1) < 0.0).any():
-            # such a path has no direction there, and TOPP-RA no way to be told to stop
+            # the path has no direction there, and TOPP-RA cannot be told to stop at a point
             self.fault = "the path turns back inside"
 
     def _lengths(self, path: Trajectory, t: Array) -> Array:
@@ -107,9 +131,9 @@ class _ArcLength(toppra.interpolator.AbstractGeometricPath):  # type: ignore[mis
         return np.asarray((np.linalg.norm(path.at(inner, 1) * self._scale, axis=2) @ w) * h / 2.0)
 
     def _nodes(self, path: Trajectory, piece: int, grid: int) -> Array:
-        """Times of one piece whose arc lengths crowd towards its ends as (i/n)^2, last one left out.
+        """Choose times of one piece, the last excluded, whose arc lengths near its ends grow as (i/n)^2.
 
-        Even steps of time, where the motion along the path starts from rest.
+        A motion that starts from rest passes them in even steps of time.
         """
         start, duration = path.breaks[piece], path.durations[piece]
         fine = start + duration * np.linspace(0.0, 1.0, 8 * grid + 1)
@@ -118,7 +142,7 @@ class _ArcLength(toppra.interpolator.AbstractGeometricPath):  # type: ignore[mis
         return np.asarray(np.interp(wanted, length, fine))
 
     def __call__(self, path_positions: Any, order: int = 0) -> Array:
-        """Values at grid points, (m, dof), or (dof,) for one."""
+        """Return values at grid points, (m, dof), or (dof,) for a single one."""
         middles = 0.5 * (self.grid[1:] + self.grid[:-1])
         return np.asarray(self._derivatives[order][np.searchsorted(middles, path_positions)])
 
@@ -134,7 +158,7 @@ class _ArcLength(toppra.interpolator.AbstractGeometricPath):  # type: ignore[mis
 
     @property
     def waypoints(self) -> None:
-        """None: a path, not a list of points."""
+        """None, because this is a path and no list of points."""
 
 
 def _time(problem: Problem, path: _ArcLength) -> float | str:

@@ -12,7 +12,7 @@ from formulations import compiled as module
 from formulations.compiled import Late, compiled, interpreted
 from formulations.proofs.proof import Proof
 from formulations.proofs.three_five_three import bound as three_five_three
-from formulations.proofs.three_five_three.search import search
+from formulations.proofs.three_five_three.search import branch_and_bound as search
 
 
 @compiled

@@ -10,7 +10,8 @@ from typing import Literal
 import casadi
 import numpy as np
 
-from formulations.motion.trajectory import Trajectory, Verdict, check
+from formulations.motion.trajectory import Trajectory
+from formulations.motion.verdict import Verdict, check
 from formulations.optima.free_form.nlp.assembly import RAMP
 from formulations.optima.free_form.nlp.task import Task
 from formulations.optima.free_form.search import Found, Search, Stage

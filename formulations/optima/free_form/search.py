@@ -13,7 +13,8 @@ from dataclasses import dataclass, replace
 
 import numpy as np
 
-from formulations.motion.trajectory import Trajectory, Verdict, check
+from formulations.motion.trajectory import Trajectory
+from formulations.motion.verdict import Verdict, check
 from formulations.optima.free_form.nlp import ipopt, slp
 from formulations.optima.free_form.nlp.arcs import Motion
 from formulations.optima.free_form.nlp.assembly import trajectory

@@ -1,16 +1,11 @@
-"""The certified lower bound of all motions: a linear relaxation in closed form, no mesh.
+"""The certified lower bound of all motions, by a linear relaxation in closed form and without a mesh.
 
-closed_forms   bounds that need no solver
-task           segments and joints that matter, limits every motion keeps
-reach          how far and how fast one joint gets in one segment: the inequalities
-switches       the motions for which those are tight
-cuts, rows     the rows in numbers: where they are posed, their coefficients, their rounding
-separation     the rows that cut a point off
-program        the linear program, solved by HiGHS row by row
-safe_dual      its bound, safe against rounding and the solver
-tightening     narrower boxes, each bound certified the same way
-prices         what each limit costs
-descent        durations of a motion near those of the relaxation
-states, motion a motion with these durations, for whoever checks it
-search         all of it, step by step
+bound                   ``free_form_bound``, which others call, and its answer
+horizons                the search: closed forms, the relaxation, a motion that meets it, narrower boxes
+relaxation/             the linear program: its rows, its safe dual bound, narrower boxes
+attaining_motion/       the motion that meets the bound, where the relaxation is tight
+closed_forms            bounds that need no solver
+prices                  what each limit costs, from the multipliers
+events                  the proof as plain data, for a checker that builds every row itself
+velocity_acceleration   another bound, without jerk limits: what ``proofs.family`` proves of a B-spline
 """

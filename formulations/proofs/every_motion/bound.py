@@ -1,20 +1,4 @@
-"""The certified lower bound of every motion there is through the waypoints.
-
-It holds for every motion from rest to rest (where jerk is limited: with an acceleration that starts and
-ends at 0) through all waypoints in order, all joints at once, that keeps the velocity, acceleration and
-jerk limits exactly and the position limits to within ``problem.position_slack``; the jerk need only be
-measurable. Each spline family through the same waypoints is made of such motions, so it is a lower
-bound of every family too.
-
-The best of four: displacement at top speed, rest to rest between the first and the last waypoint
-(``ruckig_end_to_end``, by its closed form), each segment by itself, and the linear relaxation of
-``relaxation``: rows that every motion satisfies, posed where they are needed, whose optimum is bounded
-from its multipliers in rounded arithmetic. The relaxation is tight for most tasks; where it is not,
-its boxes are narrowed to the motions that are faster than the fastest one known.
-
-What passes the check may exceed the limits by its relative tolerance, and is then faster than the bound
-by as little: see ``least_verified``.
-"""
+"""``free_form_bound``: the certified lower bound of every motion through the waypoints."""
 
 from __future__ import annotations
 
@@ -25,26 +9,51 @@ from typing import Any
 
 import numpy as np
 
-from formulations.motion.trajectory import TOLERANCE, Trajectory
+from formulations.motion.trajectory import Trajectory
+from formulations.motion.verdict import TOLERANCE
 from formulations.problem.arrays import Array
 from formulations.problem.errors import InputError
 from formulations.problem.problem import Problem
 from formulations.proofs.certificate import certificate_of
-from formulations.proofs.every_motion.search import Search
+from formulations.proofs.every_motion.horizons import BoundStatus, HorizonSearch
+
+__all__ = ["BoundStatus", "FreeFormBound", "free_form_bound"]
 
 
 @dataclass(frozen=True)
 class FreeFormBound:
-    """No motion takes less than ``seconds``.
+    """A lower bound on the total time of every motion, and what is known about it.
 
-    method: "displacement", "ruckig_end_to_end", "segment" or "relaxation", which gave it; bounds: each
-    of them [s]. upper: total [s] of the fastest motion known, given or found and verified, None if
-    there is none. motion: the one found, if it is that fast. durations: (n_segments,) [s] of the
-    relaxation's optimum. savings: (3, n_segments, dof), seconds saved per relative increase of a
-    joint's velocity, acceleration, jerk limit in a segment, to first order; None without a relaxation.
-    status: "proved" (the gap asked for), "tight as it gets" (narrower boxes would prove no more), "time
-    limit", "simple bounds only: reason" or "HiGHS ended with reason". rows: of the last program.
-    certificate: plain data for ``bounds.certificate.write_certificate``.
+    Attributes
+    ----------
+    problem : Problem
+        The problem that the bound is for.
+    seconds : float [s]
+        The bound: no motion takes less.
+    method : str
+        What proved it: "displacement", "ruckig_end_to_end", "segment" or "relaxation".
+    bounds : dict of str to float [s]
+        The bound by each of these methods.
+    upper : float or None [s]
+        Time of the fastest motion known, given or found; None if there is none.
+    status : BoundStatus
+        How the search ended: "proved" (the gap asked for is reached), "tight as it gets" (narrower
+        boxes would prove no more), "time limit", "simple bounds only" or "solver failed".
+    runtime : float [s]
+        Time of the search on this machine.
+    rows : int
+        Number of rows of the last linear program.
+    motion : Trajectory or None
+        The fastest motion, if it was found here; verified.
+    durations : Array or None, shape (n_segments,) [s]
+        Segment durations at the relaxation's optimum.
+    savings : Array or None, shape (3, n_segments, dof) [s]
+        Seconds saved per relative increase of a joint's velocity, acceleration or jerk limit in a
+        segment, to first order; None without a relaxation.
+    certificate : dict or None
+        The proof as plain data, for ``formulations.proofs.certificate.write_certificate``.
+    reason : str
+        Why the search ended with "simple bounds only" or "solver failed".
     """
 
     problem: Problem
@@ -52,17 +61,18 @@ class FreeFormBound:
     method: str
     bounds: dict[str, float]
     upper: float | None
-    status: str
+    status: BoundStatus
     runtime: float
     rows: int = 0
     motion: Trajectory | None = field(default=None, repr=False)
     durations: Array | None = field(default=None, repr=False)
     savings: Array | None = field(default=None, repr=False)
     certificate: dict[str, Any] | None = field(default=None, repr=False)
+    reason: str = ""
 
     @property
     def gap(self) -> float | None:
-        """Upper / seconds - 1; None if no motion is known, 0 if nothing moves."""
+        """Relative gap upper / seconds - 1; None if no motion is known, 0 if nothing moves."""
         if self.upper is None:
             return None
         if self.seconds > 0.0:
@@ -71,11 +81,17 @@ class FreeFormBound:
 
     @property
     def least_verified(self) -> float:
-        """No motion that passes the check is faster than this [s].
+        """No motion that passes the independent check is faster than this [s].
 
-        Its tolerance counts for limits, waypoints, rest and continuity: ten times it covers them all.
+        The check allows limits, waypoints, rest and continuity a relative tolerance; ten times this
+        tolerance covers what all of them can save.
         """
         return self.seconds * (1.0 - 10.0 * TOLERANCE)
+
+    @property
+    def ending(self) -> str:
+        """The status and its reason in one line."""
+        return f"{self.status}: {self.reason}" if self.reason else str(self.status)
 
 
 def free_form_bound(
@@ -89,10 +105,78 @@ def free_form_bound(
 ) -> FreeFormBound:
     """Prove a lower bound on the total time of all motions through the waypoints.
 
-    gap: relative gap to be content with. upper: total [s] of a verified motion, if one is known; the
-    bound is valid whatever is given. time_limit: s, apart from the first program. record: keep the
-    certificate, which proves a little less where narrow boxes were needed. progress(seconds,
-    upper): called as the bound grows. Raises InputError for a gap or a time that is none.
+    The bound holds for every motion from rest to rest that passes all waypoints in order, keeps the
+    velocity, acceleration and jerk limits exactly, and keeps the position limits to within
+    ``problem.position_slack``. Where jerk is limited, the acceleration starts and ends at 0; the jerk
+    need only be measurable. The splines of every family are such motions, so the bound holds for every
+    family as well.
+
+    It is the best of four bounds: displacement at top speed; rest to rest between the first and the last
+    waypoint; each segment by itself; and a linear relaxation of the whole problem. The relaxation
+    consists of inequalities that every motion satisfies, generated where the current point violates
+    them [1]_. Its optimum is bounded from the multipliers in rounded arithmetic [2]_, so the bound does
+    not depend on the solver's accuracy. For most problems the relaxation is tight; where it is not, the
+    intervals of its variables are narrowed to the motions that are faster than the fastest one known
+    [3]_.
+
+    Parameters
+    ----------
+    problem : Problem
+        Waypoints and limits.
+    gap : float, default 1e-3
+        Relative gap between bound and fastest known motion at which the search ends.
+    upper : float, optional [s]
+        Total time of a verified motion, if one is known. The bound is valid whatever is given. Without
+        it a motion is searched for.
+    time_limit : float, default 60 [s]
+        The search ends after this time; the first linear program is solved in any case.
+    record : bool, default False
+        Whether to keep the proof in ``certificate``. Where narrow boxes were needed, the certificate
+        may prove slightly less.
+    progress : callable, optional
+        Called as ``progress(bound, upper)`` [s] whenever the bound may have grown.
+
+    Returns
+    -------
+    FreeFormBound
+        The bound ``seconds``, its ``gap``, the certificate, and what each limit costs (``savings``).
+
+    Raises
+    ------
+    InputError
+        If ``gap``, ``upper`` or ``time_limit`` is not a number in its range.
+
+    See Also
+    --------
+    free_form : the fastest motion that was found, an upper bound.
+
+    Notes
+    -----
+    A motion that passes the independent check may exceed the limits by the check's relative tolerance,
+    and it is then faster than the bound by as little: see ``FreeFormBound.least_verified``.
+
+    The inequalities and their proofs stand in ``formulations.proofs.every_motion.relaxation.reach``.
+
+    References
+    ----------
+    .. [1] Kelley 1960, "The cutting-plane method for solving convex programs", Journal of the Society
+       for Industrial and Applied Mathematics 8, pp. 703-712.
+    .. [2] Neumaier & Shcherbina 2004, "Safe bounds in linear and mixed-integer linear programming",
+       Mathematical Programming 99, pp. 283-296.
+    .. [3] Gleixner, Berthold, Mueller & Weltge 2017, "Three enhancements for optimization-based bound
+       tightening", Journal of Global Optimization 67, pp. 731-757.
+
+    Examples
+    --------
+    A joint that moves 1 rad from rest to rest at 2 rad/s^2, by way of 0.3 rad:
+
+    >>> from formulations import Limits, Problem, free_form_bound
+    >>> limits = Limits.of(velocity=10.0, acceleration=2.0, dof=1)
+    >>> bound = free_form_bound(Problem.of([[0.0], [0.3], [1.0]], limits), gap=1e-6)
+    >>> round(bound.seconds, 5)  # 2 sqrt(1 / 2)
+    1.41421
+    >>> print(bound.status)
+    proved
     """
     started = time.perf_counter()
     if not (gap > 0.0 and np.isfinite(gap)):
@@ -101,11 +185,11 @@ def free_form_bound(
         raise InputError(f"upper: {upper!r} s is not a time")
     if not time_limit >= 0.0:
         raise InputError(f"time_limit: {time_limit!r} s is not a time")
-    search = Search(problem, upper, progress)
-    status = search.run(gap, started + time_limit)
+    search = HorizonSearch(problem, upper, progress)
+    ending = search.run(gap, started + time_limit)
     certificate = None
     if record and problem.moving_joints:
-        seconds, horizon, events = search.recorded(started + 2.0 * time_limit)
+        seconds, horizon, events = search.certify(started + 2.0 * time_limit)
         certificate = certificate_of(problem, seconds, events, horizon=horizon)
     method = max(search.bounds, key=lambda key: search.bounds[key])
     return FreeFormBound(
@@ -114,11 +198,12 @@ def free_form_bound(
         method,
         search.bounds,
         search.upper,
-        status,
+        ending.status,
         time.perf_counter() - started,
         search.rows,
         search.motion,
         search.durations,
         search.savings,
         certificate,
+        ending.reason,
     )

@@ -1,10 +1,11 @@
-"""Lower bounds in closed form: what no motion through the waypoints can do without.
+"""Lower bounds in closed form, which need no solver.
 
-One by one: each segment by itself, the first from rest, the last to rest, the others at top speed.
-(``proofs.displacement`` and ``proofs.rest_to_rest`` hold the bounds of the displacements and end to end.)
+The bounds from the displacements and from end to end are in ``proofs.displacement`` and
+``proofs.rest_to_rest``. Segment: each segment by itself, the first from rest, the last to rest, the
+others at top speed.
 
-Every formula is a few roundings of sums and products of positive numbers, 1e-14 at most in relative
-size, and continuous from case to case; ``SAFE`` is far beyond that.
+Each formula is a few sums and products of positive numbers, with a relative rounding error of at most
+1e-14, and is continuous across its cases. ``SAFE`` is far larger.
 """
 
 from __future__ import annotations
@@ -21,7 +22,16 @@ SAFE = 1e-12
 
 
 def least_durations(problem: Problem) -> Array:
-    """What each segment takes by itself, (n_segments,) [s]."""
+    """Compute what each segment takes at least, by itself.
+
+    Parameters
+    ----------
+    problem : Problem
+
+    Returns
+    -------
+    Array, shape (n_segments,) [s]
+    """
     each = (np.abs(problem.displacements) / problem.limits.velocity).max(axis=1)
     if problem.n_segments == 1:
         return np.array([end_to_end_bound(problem)])
@@ -31,10 +41,18 @@ def least_durations(problem: Problem) -> Array:
     return np.asarray(each * (1.0 - SAFE))
 
 
-def stop_and_go(problem: Problem) -> Array:
-    """Rest to rest on each segment, (n_segments,) [s], rounded up.
+def stop_and_go_durations(problem: Problem) -> Array:
+    """Compute the time from rest to rest on each segment, rounded up.
 
-    A motion, unless a joint's velocity alone is limited.
+    This is a motion's time, unless a joint has a velocity limit only.
+
+    Parameters
+    ----------
+    problem : Problem
+
+    Returns
+    -------
+    Array, shape (n_segments,) [s]
     """
     each = [
         max(_rest_to_rest(problem, j, float(d)) for j, d in enumerate(row))

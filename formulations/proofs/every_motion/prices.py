@@ -1,9 +1,9 @@
-"""What each limit costs: the derivative of the bound, from the multipliers.
+"""What each limit costs: the derivative of the bound by the limit, from the multipliers.
 
 With the point held fixed in SI units, a row's multiplier times the derivative of the row by the
-logarithm of a limit is the derivative of the bound. So ``savings`` are the seconds saved per relative
-increase of a limit, to first order: 10 % more of it saves a tenth of that. Since stretching time by s
-divides the limits by s, s^2 and s^3, a bound on which the boxes have no influence obeys
+logarithm of a limit is the derivative of the bound. So the savings are seconds per relative increase of
+a limit, to first order: 10 % more of a limit saves a tenth of its entry. A motion slowed down by a factor
+s keeps limits that are lower by s, s^2 and s^3. So, where the boxes have no influence on the bound,
 
     sum of savings by velocity + 2 by acceleration + 3 by jerk = bound.                        (12)
 """
@@ -15,18 +15,14 @@ import numpy as np
 from formulations.problem.arrays import Array
 from formulations.problem.problem import Problem
 from formulations.proofs.every_motion.relaxation.cuts import (
-    CRUISE,
-    DISTANCE,
-    PEAK_AT_END,
-    PEAK_AT_START,
-    PRODUCT_AT_END,
-    PRODUCT_AT_START,
-    SPEED,
-    STOP_AT_END,
-    STOP_AT_START,
+    DISTANCES,
+    PEAKS,
+    PRODUCTS,
+    STOPS,
     Cuts,
+    Kind,
 )
-from formulations.proofs.every_motion.relaxation.program import Program, Solution
+from formulations.proofs.every_motion.relaxation.linear_program import LinearProgram, LPSolution
 from formulations.proofs.every_motion.relaxation.reach import (
     distance_coefficients,
     speed_coefficients,
@@ -35,11 +31,23 @@ from formulations.proofs.every_motion.relaxation.reach import (
 from formulations.proofs.every_motion.relaxation.rows import Frame
 
 
-def savings(problem: Problem, program: Program, solution: Solution) -> Array:
-    """Seconds saved per relative increase of velocity, acceleration, jerk limits, (3, K, n).
+def price_limits(problem: Problem, program: LinearProgram, solution: LPSolution) -> Array:
+    """Compute the seconds saved per relative increase of each limit.
 
-    A limit at a waypoint counts half to each of the segments that meet there. Limits that the horizon
-    sets count for nothing.
+    Half of what a limit at a waypoint saves is attributed to each of the two segments that meet there.
+    Limits that follow from the horizon save nothing.
+
+    Parameters
+    ----------
+    problem : Problem
+    program : LinearProgram
+    solution : LPSolution
+        Of the total time.
+
+    Returns
+    -------
+    Array, shape (3, K, n) [s]
+        By velocity, acceleration and jerk limits; segments and joints of the relaxed problem.
     """
     frame, x = program.frame, solution.x
     found = np.zeros((3, frame.K, frame.n))
@@ -47,7 +55,7 @@ def savings(problem: Problem, program: Program, solution: Solution) -> Array:
     for kind in np.unique(program.cuts.kind[y > 0.0]):
         which = (program.cuts.kind == kind) & (y > 0.0)
         cuts = program.cuts[which]
-        for quantity, share in enumerate(_shares(frame, int(kind), cuts, x)):
+        for quantity, share in enumerate(_derivatives(frame, Kind(int(kind)), cuts, x)):
             np.add.at(found[quantity], (cuts.segment, cuts.joint), y[which] * share)
     reduced = frame.cost + program.rows.matrix.T @ np.maximum(solution.multipliers, 0.0)
     for quantity, columns in ((0, frame.v), (1, frame.a)):
@@ -55,38 +63,42 @@ def savings(problem: Problem, program: Program, solution: Solution) -> Array:
         price = np.where(bound, -reduced[columns] * x[columns], 0.0)[1:-1]
         found[quantity, :-1] += 0.5 * price
         found[quantity, 1:] += 0.5 * price
-    return _attributed(problem, frame, found)
+    return _of_own_limits(problem, frame, found)
 
 
-def _attributed(problem: Problem, frame: Frame, found: Array) -> Array:
-    """Prices of the limits in force as those of the problem's own: see ``Task.of``."""
-    task = frame.task
-    V, A, J = problem.limits.derivatives[:, task.joints]
-    own = task.acceleration >= A
-    by_both = ~own & np.isclose(task.acceleration, np.sqrt(2.0 * J * V), rtol=1e-12)
+def _of_own_limits(problem: Problem, frame: Frame, found: Array) -> Array:
+    """Savings by the problem's own limits, from those by the limits of ``RelaxedProblem.of``."""
+    relaxed = frame.relaxed
+    V, A, J = problem.limits.derivatives[:, relaxed.joints]
+    own = relaxed.acceleration >= A
+    by_both = ~own & np.isclose(relaxed.acceleration, np.sqrt(2.0 * J * V), rtol=1e-12)
     shared = np.where(by_both, 0.5 * found[1], 0.0)
-    velocity = np.where(task.velocity >= V, found[0], 0.0) + shared
+    velocity = np.where(relaxed.velocity >= V, found[0], 0.0) + shared
     return np.stack([velocity, np.where(own, found[1], 0.0), found[2] + shared])
 
 
-def _shares(frame: Frame, kind: int, cuts: Cuts, x: Array) -> tuple[Array, Array, Array]:
+def _derivatives(frame: Frame, kind: Kind, cuts: Cuts, x: Array) -> tuple[Array, Array, Array]:
     """Minus the derivative of each row by the logarithm of the three limits, at x: each (m,)."""
     k, j = cuts.segment, cuts.joint
     none = np.zeros(len(k))
-    if kind in (DISTANCE, CRUISE, SPEED, STOP_AT_START, STOP_AT_END):
+    if kind in (*DISTANCES, *STOPS, Kind.SPEED):
         A, J = frame.ramp[k, j] * x[frame.T[k]], frame.bend[k, j] * x[frame.square[k]]
-        if kind in (STOP_AT_START, STOP_AT_END):
-            c_A, c_J = stop_coefficients(cuts.at[:, :2])[2:]
-            return none, c_A * A, c_J * J
-        if kind == SPEED:
-            c_A, c_J = speed_coefficients(cuts.at[:, :2])[2:]
-            return none, c_A * A, c_J * J
-        c_V, c_A, c_J = distance_coefficients(cuts.at, kind == CRUISE)[4:]
+        c_V, c_A, c_J = _limit_coefficients(kind, cuts.at)
         return c_V, c_A * A, c_J * J
-    if kind in (PEAK_AT_START, PEAK_AT_END):
-        end = int(kind == PEAK_AT_END)
-        return none + 1.0, none, 1.0 - cuts.sign * x[frame.v[k + end, j]]
-    if kind in (PRODUCT_AT_START, PRODUCT_AT_END):
-        t, e, side = frame.corner(cuts, int(kind == PRODUCT_AT_END))
+    if kind in PEAKS:
+        return none + 1.0, none, 1.0 - cuts.sign * x[frame.v[k + kind.end, j]]
+    if kind in PRODUCTS:
+        t, e, side = frame.corner(cuts, kind.end)
         return none, np.where(np.abs(e) >= 1.0, side * e * (t - x[frame.T[k]]), 0.0), none
     return none, none, none
+
+
+def _limit_coefficients(kind: Kind, at: Array) -> tuple[Array, Array, Array]:
+    """Coefficients of V, A T and J T^2 in (1), (2) or (3), each (m,)."""
+    if kind in DISTANCES:
+        c_V, c_A, c_J = distance_coefficients(at, kind == Kind.CRUISE)[4:]
+    else:
+        of = speed_coefficients if kind == Kind.SPEED else stop_coefficients
+        c_A, c_J = of(at[:, :2])[2:]
+        c_V = np.zeros_like(c_A)
+    return c_V, c_A, c_J

@@ -1,4 +1,4 @@
-"""A lower bound that holds for every motion through the waypoints, from rest to rest.
+"""A lower bound of every motion from rest to rest under velocity and acceleration limits.
 
 Of a joint, let q be its motion, m(t) linear on each segment with values mu_0 .. mu_n at the waypoints,
 and p(t) any function of bounded variation. As q' vanishes at both ends,
@@ -12,9 +12,9 @@ whatever the durations. Summed over the joints, the total time is at least
 
     sum_k T_k + a_k / T_k - w_k T_k - const  >=  sum_k 2 sqrt(a_k (1 - w_k)) - const
 
-for any mu, p that leave all a_k >= 0, w_k <= 1. The best ones solve a convex program, the dual of the
-fastest motion under velocity and acceleration limits; nothing rests on its solution being exact. Jerk
-and position limits are left out.
+for any mu, p with all a_k >= 0 and w_k <= 1. The best mu, p solve a convex program, the dual of the
+fastest motion under velocity and acceleration limits. The bound is valid for inexact solutions too. Jerk
+and position limits are not used.
 """
 
 from __future__ import annotations
@@ -40,7 +40,7 @@ from formulations.proofs.arithmetic.intervals import (
 from formulations.proofs.domain import data_of
 
 CELLS = 8  # per segment
-_SAFE = 1e-7  # what a and b stay above 0, more than the solver may miss
+_SAFE = 1e-7  # least value of a and b, above the solver's tolerance
 _IPOPT: dict[str, Any] = {
     "ipopt.print_level": 0,
     "ipopt.sb": "yes",
@@ -52,29 +52,72 @@ _IPOPT: dict[str, Any] = {
 
 
 @dataclass(frozen=True)
-class EveryMotion:
-    """The bound [s], and what proves it: mu (n+1, dof) and p (N n + 1, dof) of the moving joints."""
+class VelocityAccelerationBound:
+    """The bound and the numbers that prove it.
+
+    Attributes
+    ----------
+    seconds : float [s]
+    mu : Array, shape (n_segments + 1, n)
+        Of the n moving joints.
+    p : Array, shape (N n_segments + 1, n)
+    """
 
     seconds: float
     mu: Array
     p: Array
 
     def events(self, moving: list[int]) -> list[list[Any]]:
-        """As a certificate writes it."""
+        """Write the proof as events of a certificate.
+
+        Parameters
+        ----------
+        moving : list of int
+            The moving joints.
+
+        Returns
+        -------
+        list
+            One event ["M", joint, mu, p] for each joint, floats as hexadecimal text.
+        """
         return [
             ["M", joint, *([x.hex() for x in values[:, j].tolist()] for values in (self.mu, self.p))]
             for j, joint in enumerate(moving)
         ]
 
 
-def every_motion(problem: Problem, cells: int = CELLS) -> EveryMotion:
-    """Prove a lower bound on the total time of all motions; 0 at worst. Something must move."""
+def velocity_acceleration_bound(problem: Problem, cells: int = CELLS) -> VelocityAccelerationBound:
+    """Prove a lower bound on the total time of all motions.
+
+    Parameters
+    ----------
+    problem : Problem
+        At least one joint moves.
+    cells : int
+        N, the number of cells per segment.
+
+    Returns
+    -------
+    VelocityAccelerationBound
+        Of 0 seconds at worst.
+    """
     mu, p = _dual(problem, cells)
-    return EveryMotion(proved(problem, mu, p), mu, p)
+    return VelocityAccelerationBound(proved(problem, mu, p), mu, p)
 
 
 def proved(problem: Problem, mu: Array, p: Array) -> float:
-    """The bound that mu (n+1, dof) and p (N n + 1, dof) prove, rounded down [s]."""
+    """Evaluate the bound that mu and p prove, rounded down.
+
+    Parameters
+    ----------
+    problem : Problem
+    mu : Array, shape (n_segments + 1, n)
+    p : Array, shape (N n_segments + 1, n)
+
+    Returns
+    -------
+    float [s]
+    """
     data = data_of(problem)
     n = len(data.d)
     velocity, acceleration, _ = data.derivatives
@@ -109,7 +152,7 @@ def _shares(p: Array, acceleration: Array, n: int) -> Array:
 
 
 def _dual(problem: Problem, cells: int) -> tuple[Array, Array]:
-    """Approximately the best mu and p, in units in which a segment takes about 1 and top speed is 1."""
+    """Solve for mu and p approximately, in units in which a segment takes about 1 and top speed is 1."""
     data = data_of(problem)
     n, dof = data.d.shape
     velocity, acceleration, _ = data.derivatives
@@ -129,9 +172,11 @@ def _dual(problem: Problem, cells: int) -> tuple[Array, Array]:
     positive = [a * b - root**2, a - _SAFE * (data.d != 0.0).any(axis=1), b - _SAFE]
     positive += [casadi.vec(part) for part in (size - p, size + p, turn - steps, turn + steps)]
     free = [casadi.vec(part) for part in (mu, p, size, turn, root)]
-    reach = np.repeat(np.where(limited, np.inf, 0.0), n * cells + 1)  # no p without a limit
+    reach = np.repeat(
+        np.where(limited, np.inf, 0.0), n * cells + 1
+    )  # p is 0 without an acceleration limit
     others = np.full(sum(part.numel() for part in free[2:]), np.inf)
-    pinned = np.where(np.arange(mu.numel()) % (n + 1) == 0, 0.0, np.inf)  # differences of mu count
+    pinned = np.where(np.arange(mu.numel()) % (n + 1) == 0, 0.0, np.inf)  # only differences of mu count
     bounds = np.concatenate([pinned, reach, others])
     solver = casadi.nlpsol(
         "dual",
@@ -147,7 +192,7 @@ def _dual(problem: Problem, cells: int) -> tuple[Array, Array]:
     answer = solver(x0=start, lbx=-bounds, ubx=bounds, lbg=0.0)
     values = np.nan_to_num(np.array(answer["x"]).ravel(), posinf=0.0, neginf=0.0)
     found_mu, found_p = np.split(values[: mu.numel() + p.numel()], [mu.numel()])
-    # of a time per velocity: what multiplies q' is divided by the joint's unit of velocity
+    # mu and p multiply q', so that they are divided by the joint's unit of velocity
     return (
         found_mu.reshape(dof, n + 1).T * unit / velocity,
         found_p.reshape(dof, n * cells + 1).T * unit / velocity,

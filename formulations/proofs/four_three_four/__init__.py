@@ -1,1 +1,11 @@
-"""Certified lower bound of 4-3-...-3-4 splines: branch and bound over inverse durations."""
+"""Certified lower bound of 4-3-...-3-4 splines: branch and bound over inverse durations.
+
+bound         domain and search of one attempt; states coordinates and conditions
+velocities    enclosure of the velocities at the inner waypoints over a box
+lagrangian    lower bounds of a weighted sum of conditions over a box: with velocities, what the proof
+              rests on
+search        the branch and bound
+reference     the point of a box about which velocities and conditions are expanded
+conditions    which conditions to try on a box (no proof depends on them)
+data          named tuples that the compiled functions share
+"""

@@ -8,46 +8,46 @@ import numpy as np
 
 from formulations.compiled import compiled
 from formulations.proofs.arithmetic.outward import down, up
+from formulations.proofs.conditions import MARGIN, MULTIPLIER
 from formulations.proofs.events import (
     ASIDE,
     BELOW,
     BOXES,
     EMPTIES,
     EMPTY,
-    EVENTS,
     LEAF,
     LEAVES,
     SLABS,
     SPLIT,
     TURN,
+    Box,
     copy,
+    has_room,
+    push_halves,
     write,
 )
-from formulations.proofs.four_three_four.lagrangian import lagrangian, share_least
-from formulations.proofs.four_three_four.rows import candidates, linear
-from formulations.proofs.four_three_four.velocities import (
-    centres,
-    enclose,
-    inverse,
-    inverse_rest,
-    velocities,
+from formulations.proofs.four_three_four.conditions import candidates, linearise
+from formulations.proofs.four_three_four.data import (
+    empty_enclosure,
+    empty_form,
+    empty_reference,
+    empty_sums,
 )
+from formulations.proofs.four_three_four.lagrangian import share_least, sum_rows
+from formulations.proofs.four_three_four.reference import place_reference
+from formulations.proofs.four_three_four.velocities import enclose
 from formulations.proofs.multipliers import minimax
-from formulations.proofs.rows import MARGIN, MULTIPLIER, WIDTH
 
 STACK = 2000
-_TURNS = 6
-_SWEEPS = 2
-
-
-def events_per_box(n: int) -> int:
-    """Most events of one box with n segments."""
-    return _TURNS * (4 * n + 2) + 2
+SHORT = 1e-10  # of L: an open segment this short is not split further
+_TURNS = 6  # rounds of cuts on one box before it is split
+_SWEEPS = 2  # of the enclosure of the velocities per round
 
 
 @compiled
-def cut_by_total(lo: Any, hi: Any, n: int, L: float) -> bool:
+def _cut_by_total(box: Any, data: Any) -> bool:
     """Cut the box by T_k = L - the others, twice; returns False if nothing is left."""
+    lo, hi, n, L = box.lo, box.hi, data.n, data.L
     for _ in range(2):
         t_lo, t_hi = 0.0, 0.0
         for k in range(n):
@@ -66,15 +66,29 @@ def cut_by_total(lo: Any, hi: Any, n: int, L: float) -> bool:
 
 
 @compiled
-def _single_row(k: int, side: int, count: int, n: int, a: Any, g: Any) -> tuple[int, float]:
+def _narrowed(box: Any, data: Any, reference: Any, velocities: Any, trace: Any, few: Any) -> bool:
+    """Cut the box by the total, enclose the velocities on it; returns False if nothing is left."""
+    left = _cut_by_total(box, data)
+    write(trace, TURN, 0, 0.0, box, few, 0)
+    if left:
+        place_reference(reference, box, data)
+        for j in range(data.d.shape[1]):
+            for _ in range(_SWEEPS):
+                left = left and enclose(j, data, box, reference, velocities)
+    return left
+
+
+@compiled
+def _single_row(k: int, side: int, count: int, form: Any) -> tuple[int, float]:
     """Row that cuts most off variable k at one side to first order, and where, in [-1, 1]."""
+    a, g = form.a, form.g
     best, where = -1, 1.0
     sign = 1.0 - 2.0 * side
     for i in range(count):
         if not sign * g[i, k] > 0.0:
             continue
         y = -a[i]
-        for m in range(n):
+        for m in range(g.shape[1]):
             if m != k:
                 y += abs(g[i, m])
         y /= sign * g[i, k]
@@ -84,176 +98,190 @@ def _single_row(k: int, side: int, count: int, n: int, a: Any, g: Any) -> tuple[
 
 
 @compiled
-def search(
-    stack: Any, stack_v: Any, depth: int, d: Any, data: Any, n: int, L: float, floor: float,
-    max_boxes: int, narrow: float, aside: bool, counts: Any, log: Any,
-) -> tuple[int, bool]:  # fmt: skip
-    """Work on the boxes in stack[:depth], at most max_boxes of them; returns (depth left, stuck).
+def _choose_rows(form: Any, count: int, n: int) -> int:
+    """Put the rows with the multipliers of the linear program into ``few``; returns their number."""
+    few, lam = form.few, form.multipliers
+    minimax(form.a, form.g, count, n, lam, 200)
+    kept = 0
+    for i in range(count):
+        if lam[i] > 1e-13 and kept < n + 1:
+            copy(few[kept], form.rows[i])
+            few[kept, MULTIPLIER] = lam[i]
+            kept += 1
+    return kept
 
-    stack: (STACK, 2, n) lower and upper ends of x, the next box last; stack_v: (STACK, 2, dof, n + 1)
-    the enclosures of the velocities at all waypoints. floor: an open segment no longer than this [s] is
-    not split further. The rest as in the search of 3-5-3.
+
+@compiled
+def _cut_slabs(
+    const: float, target: Any, kept: int, form: Any, sums: Any, box: Any, reference: Any, trace: Any
+) -> tuple[bool, bool]:
+    """Cut off slabs on which the Lagrangian is positive.
+
+    target: the slab of a single row and where it begins, (2 k + side, e in [-1, 1]), or (-1, 0.0) for
+    slabs of the box at both ends of every variable. Returns whether nothing is left, and whether
+    enough was cut for another turn.
     """
-    d_lo, d_hi = data[0], data[1]
-    dof = d.shape[1]
-    cap = dof * n * 17 + 1
-    rows, few = np.zeros((cap, WIDTH)), np.zeros((n + 1, WIDTH))
-    a, g, lam = np.empty(cap), np.empty((cap, n)), np.empty(cap)
-    C, rest = np.zeros((n + 1, n + 1)), np.zeros((n + 1, n + 1))
-    vc, G, R = np.zeros((dof, n + 1)), np.zeros((dof, n + 1, n)), np.zeros((dof, n + 1))
-    V_lo, V_hi = np.zeros((dof, n + 1)), np.zeros((dof, n + 1))
-    form, share = np.zeros((n, 6)), np.empty(n)
-    lo, hi, c, half, is_open = np.empty(n), np.empty(n), np.empty(n), np.empty(n), np.zeros(n, np.bool_)
-    ce, state = np.zeros((n + 1, 2)), np.zeros((n + 1, 2), np.int64)
-    xi_lo, xi_hi = np.zeros(n + 1), np.zeros(n + 1)
-    last = counts[BOXES] + max_boxes
-    capacity = len(log[0])
-    while depth > 0 and counts[BOXES] < last:
-        if capacity > 0 and counts[EVENTS] + _TURNS * (4 * n + 2) + 2 > capacity:
-            break
+    single, where = target
+    lo, hi, c, least, shares = box.lo, box.hi, reference.c, sums.least, sums.shares
+    n = len(c)
+    gone, cut = False, False
+    for each in range(2 * n):
+        k, side = each // 2, each % 2
+        if reference.is_open[k] or (single >= 0 and each != single):
+            continue
+        others = const
+        for m in range(n):
+            if m != k:
+                others = down(others + least[m])
+        width = hi[k] - lo[k]
+        part = 0.5
+        for _ in range(3 if single < 0 else 1):
+            if single >= 0:
+                edge = c[k] + (1.0 - 2.0 * side) * (where * reference.half[k] + 1e-6 * width)
+            else:
+                edge = hi[k] - part * width if side == 0 else lo[k] + part * width
+            edge = min(max(edge, lo[k]), hi[k])
+            s_lo, s_hi = (edge, hi[k]) if side == 0 else (lo[k], edge)
+            if s_lo < s_hi and down(others + share_least(shares[k], c[k], s_lo, s_hi)) > MARGIN:
+                trace.counts[SLABS] += 1
+                if side == 0:
+                    hi[k] = edge
+                else:
+                    lo[k] = edge
+                write(trace, BELOW + side, k, edge, box, form.few, kept)
+                cut = cut or single >= 0 or part > 0.2
+                gone = gone or not lo[k] < hi[k]
+                break
+            part *= 0.5
+    return gone, cut
+
+
+@compiled
+def _try_discards(
+    form: Any, count: int, data: Any, box: Any, reference: Any, velocities: Any, sums: Any, trace: Any
+) -> tuple[bool, bool]:
+    """Discard the whole box, or slabs of it, by all rows together and then by single rows.
+
+    Returns whether nothing is left, and whether enough was cut for another turn.
+    """
+    n, lo, hi = data.n, box.lo, box.hi
+    kept = _choose_rows(form, count, n)
+    cut = False
+    for single in range(-1, 2 * n):
+        where = 0.0
+        if single >= 0:
+            if reference.is_open[single // 2]:
+                continue
+            i, where = _single_row(single // 2, single % 2, count, form)
+            if i < 0 or where > 0.9:
+                continue
+            copy(form.few[0], form.rows[i])
+            form.few[0, MULTIPLIER] = 1.0
+            kept = 1
+        const = sum_rows(form.few, kept, data, box, reference, velocities, sums)
+        total = const
+        for k in range(n):
+            sums.least[k] = share_least(sums.shares[k], reference.c[k], lo[k], hi[k])
+            total = down(total + sums.least[k])
+        if total > MARGIN:
+            trace.counts[LEAVES] += 1
+            write(trace, LEAF, 0, 0.0, box, form.few, kept)
+            return True, cut
+        gone, more = _cut_slabs(const, (single, where), kept, form, sums, box, reference, trace)
+        cut = cut or more
+        if gone:  # the closed slabs cover the box
+            trace.counts[EMPTIES] += 1
+            write(trace, EMPTY, 0, 0.0, box, form.few, 0)
+            return True, cut
+    return False, cut
+
+
+@compiled
+def _reduced_to_nothing(
+    box: Any, data: Any, reference: Any, velocities: Any, form: Any, sums: Any, trace: Any
+) -> bool:
+    """Narrow the box turn by turn as long as that helps; returns whether nothing is left."""
+    for _ in range(_TURNS):
+        if not _narrowed(box, data, reference, velocities, trace, form.few):
+            trace.counts[EMPTIES] += 1
+            write(trace, EMPTY, 0, 0.0, box, form.few, 0)
+            return True
+        count = candidates(form.rows, data, reference)
+        count = linearise(form, count, data, box, reference, velocities)
+        if count == 0:
+            return False
+        gone, cut = _try_discards(form, count, data, box, reference, velocities, sums, trace)
+        if gone:
+            return True
+        if not cut:
+            return False
+    return False
+
+
+@compiled
+def branch_and_bound(
+    stack: Any, stack_v: Any, depth: int, data: Any, effort: Any, trace: Any
+) -> tuple[int, bool]:
+    """Work on the boxes of a stack.
+
+    The search also stops when the log is nearly full.
+
+    Parameters
+    ----------
+    stack : ndarray, shape (STACK, 2, n)
+        Lower and upper ends of x per box, the next box last.
+    stack_v : ndarray, shape (STACK, 2, dof, n + 1)
+        Enclosures of the velocities at all waypoints per box.
+    depth : int
+        Number of boxes.
+    data : RateData
+        The task.
+    effort : Effort
+        Number of boxes, and what happens to undecided ones.
+    trace : Trace
+        Counters and log.
+
+    Returns
+    -------
+    depth : int
+        Boxes that are left; 0: L is proved, unless boxes were set aside.
+    stuck : bool
+        Whether the box at depth - 1 is undecided and too narrow to be split.
+    """
+    n, dof, shortest = data.n, data.d.shape[1], SHORT * data.L
+    form, sums = empty_form(n, dof), empty_sums(n, dof)
+    reference, velocities = empty_reference(n, dof), empty_enclosure(n, dof)
+    box = Box(np.empty(n), np.empty(n))
+    lo, hi = box
+    last = trace.counts[BOXES] + effort.max_boxes
+    while depth > 0 and trace.counts[BOXES] < last and has_room(trace, _TURNS * (4 * n + 2) + 2):
         depth -= 1
         copy(lo, stack[depth, 0])
         copy(hi, stack[depth, 1])
         for j in range(dof):
-            copy(V_lo[j], stack_v[depth, 0, j])
-            copy(V_hi[j], stack_v[depth, 1, j])
-        counts[BOXES] += 1
-        gone = False
-        for _ in range(_TURNS):
-            gone = not cut_by_total(lo, hi, n, L)
-            write(log, counts, TURN, 0, 0.0, lo, hi, few, 0)
-            if gone:
-                counts[EMPTIES] += 1
-                write(log, counts, EMPTY, 0, 0.0, lo, hi, few, 0)
-                break
-            for k in range(n):
-                is_open[k] = hi[k] == np.inf
-                c[k] = lo[k] if is_open[k] else 0.5 * (lo[k] + hi[k])
-                half[k] = 0.0 if is_open[k] else 0.5 * (hi[k] - lo[k])
-            centres(c, is_open, n, ce, state)
-            inverse(ce, n, C)
-            inverse_rest(ce, C, n, rest)
-            velocities(d, ce, C, n, vc)
-            for j in range(dof):
-                for _ in range(_SWEEPS):
-                    gone = gone or not enclose(
-                        j,
-                        d,
-                        d_lo,
-                        d_hi,
-                        lo,
-                        hi,
-                        c,
-                        ce,
-                        state,
-                        C,
-                        rest,
-                        vc,
-                        n,
-                        V_lo,
-                        V_hi,
-                        G,
-                        R,
-                        xi_lo,
-                        xi_hi,
-                    )
-            if gone:
-                counts[EMPTIES] += 1
-                write(log, counts, EMPTY, 0, 0.0, lo, hi, few, 0)
-                break
-            count = candidates(rows, d, data, c, is_open, vc, n)
-            count = linear(rows, count, d, data, n, L, c, lo, half, is_open, vc, G, R, a, g)
-            if count == 0:
-                break
-            minimax(a, g, count, n, lam, 200)
-            kept = 0
-            for i in range(count):
-                if lam[i] > 1e-13 and kept < n + 1:
-                    copy(few[kept], rows[i])
-                    few[kept, MULTIPLIER] = lam[i]
-                    kept += 1
-            # the whole box, then slabs of it, and last the slabs that single rows discard
-            cut = False
-            for single in range(-1, 2 * n):
-                if single >= 0:
-                    k, side = single // 2, single % 2
-                    if is_open[k]:
-                        continue
-                    i, where = _single_row(k, side, count, n, a, g)
-                    if i < 0 or where > 0.9:
-                        continue
-                    copy(few[0], rows[i])
-                    few[0, MULTIPLIER] = 1.0
-                    kept = 1
-                const = lagrangian(few, kept, data, n, L, lo, hi, c, ce, state, C, V_lo, V_hi, form)
-                total = const
-                for k in range(n):
-                    share[k] = share_least(form, k, c[k], lo[k], hi[k])
-                    total = down(total + share[k])
-                if total > MARGIN:
-                    gone = True
-                    counts[LEAVES] += 1
-                    write(log, counts, LEAF, 0, 0.0, lo, hi, few, kept)
-                    break
-                for each in range(2 * n):
-                    k, side = each // 2, each % 2
-                    if is_open[k] or (single >= 0 and each != single):
-                        continue
-                    others = const
-                    for m in range(n):
-                        if m != k:
-                            others = down(others + share[m])
-                    width = hi[k] - lo[k]
-                    part = 0.5
-                    for _ in range(3 if single < 0 else 1):
-                        if single >= 0:
-                            edge = c[k] + (1.0 - 2.0 * side) * (where * half[k] + 1e-6 * width)
-                        else:
-                            edge = hi[k] - part * width if side == 0 else lo[k] + part * width
-                        edge = min(max(edge, lo[k]), hi[k])
-                        s_lo, s_hi = (edge, hi[k]) if side == 0 else (lo[k], edge)
-                        if (
-                            s_lo < s_hi
-                            and down(others + share_least(form, k, c[k], s_lo, s_hi)) > MARGIN
-                        ):
-                            counts[SLABS] += 1
-                            if side == 0:
-                                hi[k] = edge
-                            else:
-                                lo[k] = edge
-                            write(log, counts, BELOW + side, k, edge, lo, hi, few, kept)
-                            cut = cut or single >= 0 or part > 0.2
-                            gone = gone or not lo[k] < hi[k]
-                            break
-                        part *= 0.5
-                if gone:  # the closed slabs cover the box
-                    counts[EMPTIES] += 1
-                    write(log, counts, EMPTY, 0, 0.0, lo, hi, few, 0)
-                    break
-            if gone or not cut:
-                break
-        if gone:
+            copy(velocities.lo[j], stack_v[depth, 0, j])
+            copy(velocities.hi[j], stack_v[depth, 1, j])
+        trace.counts[BOXES] += 1
+        if _reduced_to_nothing(box, data, reference, velocities, form, sums, trace):
             continue
         x, widest = 0, -1.0
         for k in range(n):
-            width = np.log(hi[k] / lo[k]) if hi[k] < np.inf else np.log(1.0 / (lo[k] * floor))
+            width = np.log(hi[k] / lo[k]) if hi[k] < np.inf else np.log(1.0 / (lo[k] * shortest))
             if width > widest:
                 x, widest = k, width
-        if widest < narrow or depth > STACK - 3:
-            if not aside:
+        if widest < effort.narrow or depth > STACK - 3:
+            if not effort.aside:
                 copy(stack[depth, 0], lo)
                 copy(stack[depth, 1], hi)
                 return depth + 1, True
-            write(log, counts, ASIDE, 0, 0.0, lo, hi, few, 0)
+            write(trace, ASIDE, 0, 0.0, box, form.few, 0)
             continue
-        middle = np.sqrt(lo[x] * hi[x]) if hi[x] < np.inf else np.sqrt(lo[x] / floor)
-        for child in range(2):
-            copy(stack[depth, 0], lo)
-            copy(stack[depth, 1], hi)
+        middle = np.sqrt(lo[x] * hi[x]) if hi[x] < np.inf else np.sqrt(lo[x] / shortest)
+        push_halves(stack, depth, box, x, middle)
+        for _ in range(2):
             for j in range(dof):
-                copy(stack_v[depth, 0, j], V_lo[j])
-                copy(stack_v[depth, 1, j], V_hi[j])
-            stack[depth, 1 - child, x] = middle
+                copy(stack_v[depth, 0, j], velocities.lo[j])
+                copy(stack_v[depth, 1, j], velocities.hi[j])
             depth += 1
-        write(log, counts, SPLIT, x, middle, lo, hi, few, 0)
+        write(trace, SPLIT, x, middle, box, form.few, 0)
     return depth, False

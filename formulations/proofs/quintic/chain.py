@@ -1,15 +1,15 @@
-"""Conditions that tie each of n variables to its two neighbours alone, on a grid of cells.
+"""Quintic: a grid of cells for variables that conditions tie to their two neighbours only.
 
 The domain of x_k is cut into cells. A path takes a cell of each variable; it holds all points whose
 x_k lie in its cells. A triple (a, b, c) of cells of x_{k-1}, x_k, x_{k+1} stands for all paths through
-them. Triples are discarded, never paths:
+them. Triples are discarded, never single paths:
 
-    rows    g(x_{k-1}, x_k, x_{k+1}) > 0 on all of a triple, g <= 0 necessary
-    sum     phi_0(x_0) + ... + phi_{n+1}(x_{n+1}) > 0 on every path through a triple, the sum <= 0
-            necessary: the least sum before and after each pair of cells follows from neighbour to
-            neighbour (dynamic programming), so n variables cost n times what one costs
+    rows    g(x_{k-1}, x_k, x_{k+1}) > 0 on all of a triple, where g <= 0 is necessary
+    sum     phi_0(x_0) + ... + phi_{n+1}(x_{n+1}) > 0 on every path through a triple, where the sum <= 0
+            is necessary. Dynamic programming gives the least sum before and after each pair of cells,
+            so the cost grows linearly with n
 
-If no triple of some variable is left, no point of the domain fulfils the conditions. The variables are
+If some variable has no triple left, no point of the domain fulfils the conditions. The variables are
 padded by one at each end that has a single cell. All sums are rounded to the safe side.
 """
 
@@ -23,11 +23,17 @@ from formulations.problem.arrays import Array
 from formulations.proofs.arithmetic.intervals import sum_error
 
 
-class Chain:
+class CellChain:
     """Cells of n variables, and the triples that are left."""
 
     def __init__(self, lo: Array, hi: Array) -> None:
-        """lo, hi: the domain of the variables and of the padding, (n+2,)."""
+        """Begin with one cell per variable.
+
+        Parameters
+        ----------
+        lo, hi : Array, shape (n+2,)
+            The domain of the variables and of the padding.
+        """
         self.n = len(lo) - 2
         self.lo, self.hi = [np.array([x]) for x in lo], [np.array([x]) for x in hi]
         self.triples: list[Any] = [np.zeros((3, 1), np.intp) for _ in range(self.n)]
@@ -44,9 +50,19 @@ class Chain:
         return min(t.shape[1] for t in self.triples) == 0
 
     def discard_rows(self, k: int, before: Array, own: Array, after: Array) -> list[int]:
-        """Discard triples about variable k on which any row is positive; returns the rows that did.
+        """Discard the triples about variable k on which any condition is violated.
 
-        before, own, after: least shares of m rows on the cells of x_{k-1}, x_k, x_{k+1}, (m, cells).
+        Parameters
+        ----------
+        k : int
+            The variable.
+        before, own, after : Array, shape (m, cells)
+            Least shares of m conditions on the cells of x_{k-1}, x_k, x_{k+1}.
+
+        Returns
+        -------
+        list of int
+            The conditions that discarded something.
         """
         triples, useful = self.triples[k], []
         for row, shares in enumerate(zip(before, own, after, strict=True)):
@@ -63,10 +79,23 @@ class Chain:
         return useful
 
     def discard_sum(self, shares: list[Array], const: float, margin: float) -> tuple[float, int]:
-        """Discard triples through which no path has a sum at most margin.
+        """Discard the triples through which every path has a sum above a margin.
 
-        shares: least phi on the cells of each variable, padded; const: is added. Returns a lower bound
-        of all sums before, and how many triples went. ``least_path`` is the least by this sum.
+        Parameters
+        ----------
+        shares : list of Array, shape (cells,)
+            Least phi on the cells of each variable, padded.
+        const : float
+            Is added to the sum.
+        margin : float
+            A sum above it discards.
+
+        Returns
+        -------
+        least : float
+            Lower bound of the sums of all paths, before the discards.
+        gone : int
+            Number of triples discarded.
         """
         sizes = sum(float(np.abs(share).max()) for share in shares) + abs(const)
         threshold = margin + float(sum_error(2 * self.n + 6, sizes))
@@ -92,7 +121,7 @@ class Chain:
         return least
 
     def least_path(self) -> tuple[Array, Array]:
-        """Ends (n+2,) of the cells of the path with the least of the last sum, and of the padding."""
+        """Lower and upper ends of the cells of the path with the least last sum, shape (n+2,) each."""
         cells = [0]
         for k, (triples, least) in enumerate(zip(self.triples, self._least, strict=True)):
             if k:
@@ -106,7 +135,15 @@ class Chain:
         )
 
     def cut(self, k: int, edges: Array) -> None:
-        """Cut the cells of padded variable k at edges (m,), ascending; cells out of use are dropped."""
+        """Cut the cells of a variable; cells that no triple uses are dropped.
+
+        Parameters
+        ----------
+        k : int
+            The padded variable.
+        edges : Array, shape (m,)
+            Where to cut, ascending.
+        """
         used = np.unique(self.triples[k - 1][1])
         lo, hi = self.lo[k][used], self.hi[k][used]
         first, last = np.searchsorted(edges, lo, "right"), np.searchsorted(edges, hi, "left")

@@ -1,11 +1,12 @@
-"""Multipliers for the quintic's Lagrangian, from a linear program about one point.
+"""Quintic: multipliers for a sum of conditions, from a linear program about one point.
 
 To first order about x, with relative steps e in a box:
 
     minimise    sum_k T_k (1 - e_k) + penalty t      over e, t >= 0
     subject to  g_i(x) + sum_k dg_i/dx_k x_k e_k <= t size_i
 
-The multipliers of its rows are those worth trying. Nothing rests on them: the rounded sum decides.
+The multipliers of its constraints are worth trying. The proof does not depend on them: the sum, rounded
+outward, decides.
 """
 
 from __future__ import annotations
@@ -14,18 +15,34 @@ import numpy as np
 from scipy.optimize import linprog
 
 from formulations.problem.arrays import Array
-from formulations.proofs.quintic.rows import Pieces, Rows
+from formulations.proofs.quintic.conditions import PieceConditions, Pieces
 
-_PENALTY = 100.0  # of the total time, for rows that no step in the box mends
+_PENALTY = 100.0  # of the total time, for conditions that no step in the box fulfils
 _NEGLIGIBLE = 1e-12  # of the largest multiplier
 
 
-def multipliers(
+def propose_multipliers(
     pieces: Pieces, x: Array, lo: Array, hi: Array, total: Array
-) -> tuple[Rows, Array, Rows]:
-    """Rows and multipliers that discard much near x (n+2,) in [lo, hi], padded, and all rows tried.
+) -> tuple[PieceConditions, Array, PieceConditions]:
+    """Propose conditions and multipliers that discard much near one point.
 
-    total (n+2,): 1 where a duration counts in the total, else 0.
+    Parameters
+    ----------
+    pieces : Pieces
+        Of the problem.
+    x, lo, hi : Array, shape (n+2,) [1/s]
+        The point, and the box in which the steps stay; padded.
+    total : Array, shape (n+2,)
+        1 where a duration counts in the total, else 0.
+
+    Returns
+    -------
+    conditions : PieceConditions
+        Those with a multiplier.
+    weights : Array
+        Their multipliers, > 0.
+    every : PieceConditions
+        All conditions that were tried.
     """
     every = pieces.peaks(x)
     values, slopes = every.at(x)

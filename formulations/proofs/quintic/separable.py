@@ -1,4 +1,4 @@
-"""The share of one variable in a separable Lagrangian: its least value on each of many cells."""
+"""Quintic: least value of one variable's share of a separable Lagrangian, on each of many cells."""
 
 from __future__ import annotations
 
@@ -7,15 +7,27 @@ import numpy as np
 from formulations.problem.arrays import Array
 from formulations.proofs.arithmetic.intervals import down, up
 
-_PIECES = 8  # that a cell is bounded on where the share is neither convex nor concave in 1/x
+_PIECES = 8  # parts of a cell, where the share is neither convex nor concave in 1/x
 
 
 def least_share(a: float, b: float, c: float, lo: Array, hi: Array) -> Array:
-    """Lower bounds of a x + b / x - c / x^2 over x in [lo, hi] > 0, c >= 0; all (cells,).
+    """Bound a x + b / x - c / x^2 from below over x in [lo, hi], for each of many cells.
 
     In u = 1/x on [p, q]: u^2 <= (p + q) u - p q, so the share is at least a / u + b' u + c p q with
     b' = b - c (p + q). That is monotone or concave, least at an end, unless a, b' > 0: then it is
     convex, and at least 2 sqrt(a b') unless its slope keeps one sign.
+
+    Parameters
+    ----------
+    a, b, c : float
+        Coefficients; c >= 0.
+    lo, hi : Array, shape (cells,)
+        Ends of the cells, > 0.
+
+    Returns
+    -------
+    Array, shape (cells,)
+        Lower bounds, rounded down.
     """
     first, last = down(1.0 / hi), up(1.0 / lo)
     if c > 0.0:

@@ -1,9 +1,9 @@
-"""3-5-3, what the proof rests on: a separable Lagrangian bounded below over a box (see
-three_five_three).
+"""3-5-3, what the proof rests on: lower bounds of a separable Lagrangian over a box of (r, q).
 
-With multipliers l >= 0 of the conditions g <= 0, f = sum l g is f1(r) + f2(q) + f3(T) + const:
-f1, f2 quadratics plus nu / x, bounded to third order; f3 concave, so least at an end of T's range.
-No feasible motion is where f > 0, whatever the multipliers.
+With multipliers l >= 0 of the conditions g <= 0 (see ``bound``), f = sum l g splits into
+f1(r) + f2(q) + f3(T) + const. f1 and f2 are quadratics plus nu / x, bounded to third order; f3 is
+concave, so it is least at an end of T's range. Lemma: where f > 0 there is no feasible motion, whatever
+the multipliers, because at a feasible motion every g is at most 0.
 """
 
 from __future__ import annotations
@@ -22,7 +22,7 @@ from formulations.proofs.arithmetic.outward import (
     scale,
     up,
 )
-from formulations.proofs.rows import (
+from formulations.proofs.conditions import (
     FIRST,
     JOINT,
     KIND,
@@ -34,27 +34,6 @@ from formulations.proofs.rows import (
     SIGN,
     TOTAL,
 )
-
-
-def _basis() -> Any:
-    """What multiplies d2, d1 r, d1 r^2, d3 q, d3 q^2 in the middle quintic, and its derivatives in s.
-
-    (4, 5, 6): order, term, power of s. All entries are integers.
-    """
-    basis = np.zeros((4, 5, 6))
-    basis[0] = [
-        [0, 0, 0, 10, -15, 6],
-        [0, 3, 0, -18, 24, -9],
-        [0, 0, 3, -9, 9, -3],
-        [0, 0, 0, -12, 21, -9],
-        [0, 0, 0, -3, 6, -3],
-    ]
-    for order in range(1, 4):
-        basis[order, :, :5] = basis[order - 1, :, 1:] * np.arange(1, 6)
-    return basis
-
-
-BASIS = _basis()
 
 
 @compiled
@@ -78,25 +57,50 @@ def _separable_least(b_lo: float, b_hi: float, k_lo: float, nu: float, lo: float
 
 
 @compiled
-def middle_range(lo: Any, hi: Any, has: Any, L: float) -> tuple[float, float]:
-    """Range of T = L / (1 + 1/r + 1/q) over the box of (r, q); it increases in both."""
+def middle_range(box: Any, data: Any) -> tuple[float, float]:
+    """Range of T = L / (1 + 1/r + 1/q) over a box; T increases in both variables.
+
+    Parameters
+    ----------
+    box : Box
+        Of (r, q).
+    data : RatioData
+        The task.
+
+    Returns
+    -------
+    tuple of two floats [s]
+        Lower and upper bound.
+    """
     most, least = 1.0, 1.0
     for x in range(2):
-        if has[x]:
-            least, most = down(least + down(1.0 / hi[x])), up(most + up(1.0 / lo[x]))
-    return down(L / most), up(L / least)
+        if data.has[x]:
+            least, most = down(least + down(1.0 / box.hi[x])), up(most + up(1.0 / box.lo[x]))
+    return down(data.L / most), up(data.L / least)
 
 
 @compiled
-def excess(rows: Any, n: int, lo: Any, hi: Any, data: Any, has: Any, shortest: Any, L: float) -> float:
-    """Lower bound over the box of f = sum_i l_i g_i; positive: no feasible motion in it.
+def excess(rows: Any, n: int, box: Any, data: Any) -> float:
+    """Lower bound of f = sum_i l_i g_i over a box; if positive, no feasible motion is in the box.
 
-    lo, hi: (2,) box of (r, q). data: d_lo, d_hi (3, dof) enclosures of the displacements; limit (5,
-    dof): room above and below the second waypoint, rounded up, velocity, acceleration, jerk. has:
-    whether r and q exist. shortest: (3,) lower bounds of the durations.
+    Parameters
+    ----------
+    rows : ndarray, shape (at least n, WIDTH)
+        Conditions with their multipliers.
+    n : int
+        Number of rows.
+    box : Box
+        Of (r, q).
+    data : RatioData
+        The task.
+
+    Returns
+    -------
+    float
+        The bound, rounded down.
     """
-    d_lo, d_hi, limit, basis = data
-    t_lo, t_hi = middle_range(lo, hi, has, L)
+    d_lo, d_hi, limit, basis = data.d_lo, data.d_hi, data.limit, data.basis
+    t_lo, t_hi = middle_range(box, data)
     const, nu = 0.0, 0.0
     c_lo, c_hi = np.zeros((2, 2)), np.zeros((2, 2))  # of r, r^2, q, q^2
     w1, w2, w3 = 0.0, 0.0, 0.0  # f3 = -(w1 T + w2 T^2 + w3 T^3) - nu L / T
@@ -107,7 +111,7 @@ def excess(rows: Any, n: int, lo: Any, hi: Any, data: Any, has: Any, shortest: A
         kind = rows[i, KIND]
         if kind in (FIRST, LAST):
             x = 0 if kind == FIRST else 1
-            t = shortest[2 * x]
+            t = data.shortest[2 * x]
             c_lo[x, 0], c_hi[x, 0] = add(c_lo[x, 0], c_hi[x, 0], down(m * t), up(m * t))
             w1 = up(w1 + m)
         elif kind == TOTAL:
@@ -136,13 +140,14 @@ def excess(rows: Any, n: int, lo: Any, hi: Any, data: Any, has: Any, shortest: A
                 w3 = up(w3 + up(m * limit[4, j]))
     total = down(const + nu)
     for x in range(2):
-        if has[x]:
-            least = _separable_least(c_lo[x, 0], c_hi[x, 0], c_lo[x, 1], nu, lo[x], hi[x])
+        if data.has[x]:
+            least = _separable_least(c_lo[x, 0], c_hi[x, 0], c_lo[x, 1], nu, box.lo[x], box.hi[x])
             total = down(total + least)
-    return down(total + min(_ends(w1, w2, w3, nu, L, t_lo), _ends(w1, w2, w3, nu, L, t_hi)))
+    at_lo = _middle_share(w1, w2, w3, nu, data.L, t_lo)
+    return down(total + min(at_lo, _middle_share(w1, w2, w3, nu, data.L, t_hi)))
 
 
 @compiled
-def _ends(w1: float, w2: float, w3: float, nu: float, L: float, t: float) -> float:
-    """Lower bound of f3 at t."""
+def _middle_share(w1: float, w2: float, w3: float, nu: float, L: float, t: float) -> float:
+    """Lower bound of f3 at T = t."""
     return down(-up(up(up(up(up(w3 * t) + w2) * t) + w1) * t) - up(up(nu * L) / t))

@@ -7,156 +7,197 @@ from typing import Any
 import numpy as np
 
 from formulations.compiled import compiled
+from formulations.proofs.conditions import MARGIN, MULTIPLIER, WIDTH
 from formulations.proofs.events import (
     ASIDE,
     BELOW,
     BOXES,
     EMPTIES,
     EMPTY,
-    EVENTS,
     LEAF,
     LEAVES,
     SLABS,
     SPLIT,
+    Box,
     copy,
+    has_room,
+    push_halves,
     write,
 )
 from formulations.proofs.multipliers import minimax
-from formulations.proofs.rows import MARGIN, MULTIPLIER, WIDTH
+from formulations.proofs.three_five_three.conditions import candidates, linearise
+from formulations.proofs.three_five_three.data import RatioForm
 from formulations.proofs.three_five_three.lagrangian import excess, middle_range
-from formulations.proofs.three_five_three.rows import candidates, linear
 
 STACK = 400
 MOST_ROWS = 4  # three variables: a basic solution has four multipliers
-_TURNS = 8
-EVENTS_PER_BOX = 4 * _TURNS + 2
+_TURNS = 8  # rounds of cuts on one box before it is split
+_EVENTS_PER_BOX = 4 * _TURNS + 2
 
 
 @compiled
-def search(
-    stack: Any, depth: int, d: Any, data: Any, has: Any, shortest: Any, L: float,
-    max_boxes: int, narrow: float, aside: bool, counts: Any, log: Any,
-) -> tuple[int, bool]:  # fmt: skip
-    """Work on the boxes in stack[:depth], at most max_boxes of them; returns (depth left, stuck).
+def _discards(form: Any, n: int, few: Any, box: Any, data: Any) -> int:
+    """Number of rows, in ``few``, whose Lagrangian is positive on the box; 0 if none was found."""
+    rows, a, g, lam = form.rows, form.a, form.g, form.multipliers
+    worst, alone = -1, 0.0
+    for i in range(n):
+        least = a[i] - abs(g[i, 0]) - abs(g[i, 1]) - abs(g[i, 2])
+        if least > alone:
+            worst, alone = i, least
+    if worst >= 0:  # one row alone
+        copy(few[0], rows[worst])
+        few[0, MULTIPLIER] = 1.0
+        if excess(few, 1, box, data) > MARGIN:
+            return 1
+    if minimax(a, g, n, 3, lam, 60) > -0.3:  # several rows together
+        kept = 0
+        for i in range(n):
+            if lam[i] > 1e-14 and kept < MOST_ROWS:
+                copy(few[kept], rows[i])
+                few[kept, MULTIPLIER] = lam[i]
+                kept += 1
+        if excess(few, kept, box, data) > MARGIN:
+            return kept
+    return 0
 
-    stack: (STACK, 2, 2) lower and upper ends of (r, q), the next box last. Depth 0: nothing is left,
-    L is proved. stuck: stack[depth - 1] is narrower than ``narrow`` (in its logarithm) and undecided;
-    with ``aside`` such boxes are set aside instead and the search goes on (then nothing is proved).
-    Stops early, too, when the log is nearly full.
+
+@compiled
+def _slab(form: Any, n: int, x: int, side: int) -> tuple[int, float]:
+    """Row that cuts most off variable x at one side (0: above), and where, e in [-1, 1] times the sign."""
+    a, g = form.a, form.g
+    sign = 1.0 - 2.0 * side
+    best, where = -1, 1.0
+    for i in range(n):
+        rest = a[i]
+        for y in range(3):
+            if y != x:
+                rest -= abs(g[i, y])
+        slope = sign * g[i, x]
+        if slope > 0.0 and -rest / slope < where:
+            where, best = -rest / slope, i
+    return best, where
+
+
+@compiled
+def _cut_slabs(form: Any, n: int, few: Any, box: Any, data: Any, trace: Any) -> bool:
+    """Cut off slabs of the box that single rows discard; returns whether any was."""
+    lo, hi = box
+    rows, middle, half = form.rows, form.c, form.h
+    part = Box(np.empty(2), np.empty(2))
+    cut = False
+    for x in range(2):
+        if not data.has[x] or half[x] <= 0.0:
+            continue
+        for side in range(2):
+            i, e = _slab(form, n, x, side)
+            if i < 0 or e > 0.9:
+                continue
+            e = max(-1.0, e + 1e-6)
+            copy(part.lo, lo)
+            copy(part.hi, hi)
+            if side == 0:
+                value = part.lo[x] = max(lo[x], middle[x] + e * half[x])
+            else:
+                value = part.hi[x] = min(hi[x], middle[x] - e * half[x])
+            if not part.lo[x] < part.hi[x]:
+                continue
+            copy(few[0], rows[i])
+            few[0, MULTIPLIER] = 1.0
+            if excess(few, 1, part, data) > MARGIN:
+                trace.counts[SLABS] += 1
+                if side == 0:
+                    hi[x] = value
+                else:
+                    lo[x] = value
+                write(trace, BELOW + side, x, value, box, few, 1)
+                cut = True
+    return cut
+
+
+@compiled
+def _reduced_to_nothing(form: Any, few: Any, box: Any, data: Any, work: Any, trace: Any) -> bool:
+    """Discard the box, or cut slabs off it as long as that helps; returns whether nothing is left."""
+    lo, hi = box
+    c, h = form.c, form.h
+    for _ in range(_TURNS):
+        t_lo, t_hi = middle_range(box, data)
+        for x in range(2):
+            c[x], h[x] = 0.5 * (lo[x] + hi[x]), 0.5 * (hi[x] - lo[x])
+        c[2], h[2] = 0.5 * (t_lo + t_hi), 0.5 * (t_hi - t_lo)
+        n = candidates(form, data, work)
+        linearise(form, n, data)
+        kept = _discards(form, n, few, box, data)
+        if kept > 0:
+            trace.counts[LEAVES] += 1
+            write(trace, LEAF, 0, 0.0, box, few, kept)
+            return True
+        if not _cut_slabs(form, n, few, box, data, trace):
+            return False
+        for x in range(2):
+            if data.has[x] and not lo[x] < hi[x]:  # the closed slabs together cover the box
+                trace.counts[EMPTIES] += 1
+                write(trace, EMPTY, 0, 0.0, box, few, 0)
+                return True
+    return False
+
+
+@compiled
+def branch_and_bound(stack: Any, depth: int, data: Any, effort: Any, trace: Any) -> tuple[int, bool]:
+    """Work on the boxes of a stack.
+
+    The search also stops when the log is nearly full.
+
+    Parameters
+    ----------
+    stack : ndarray, shape (STACK, 2, 2)
+        Lower and upper ends of (r, q) per box, the next box last.
+    depth : int
+        Number of boxes on it.
+    data : RatioData
+        The task.
+    effort : Effort
+        Number of boxes, and what happens to undecided ones.
+    trace : Trace
+        Counters and log.
+
+    Returns
+    -------
+    depth : int
+        Boxes that are left; 0: L is proved, unless boxes were set aside.
+    stuck : bool
+        Whether the box at depth - 1 is undecided and too narrow to be split.
     """
-    rows = np.zeros((16 * d.shape[1] + 3, WIDTH))
+    has = data.has
+    cap = 16 * data.d.shape[1] + 3
+    form = RatioForm(
+        np.empty(3), np.empty(3),
+        np.zeros((cap, WIDTH)), np.empty(cap), np.empty((cap, 3)), np.empty(cap),
+    )  # fmt: skip
     few = np.zeros((MOST_ROWS, WIDTH))
-    a, g, lam = np.empty(len(rows)), np.empty((len(rows), 3)), np.empty(len(rows))
     work = np.zeros((8, 6))
-    c, h = np.empty(3), np.empty(3)
-    lo, hi, s_lo, s_hi = np.empty(2), np.empty(2), np.empty(2), np.empty(2)
-    last = counts[BOXES] + max_boxes
-    capacity = len(log[0])
-    while depth > 0 and counts[BOXES] < last:
-        if capacity > 0 and counts[EVENTS] + EVENTS_PER_BOX > capacity:
-            break
+    box = Box(np.empty(2), np.empty(2))
+    lo, hi = box
+    last = trace.counts[BOXES] + effort.max_boxes
+    while depth > 0 and trace.counts[BOXES] < last and has_room(trace, _EVENTS_PER_BOX):
         depth -= 1
         copy(lo, stack[depth, 0])
         copy(hi, stack[depth, 1])
-        counts[BOXES] += 1
-        gone = False
-        for _ in range(_TURNS):
-            t_lo, t_hi = middle_range(lo, hi, has, L)
-            for x in range(2):
-                c[x], h[x] = 0.5 * (lo[x] + hi[x]), 0.5 * (hi[x] - lo[x])
-            c[2], h[2] = 0.5 * (t_lo + t_hi), 0.5 * (t_hi - t_lo)
-            n = candidates(rows, d, data[2], c, has, L, work)
-            linear(rows, n, d, data, has, shortest, L, c, h, a, g)
-            # discard by one row alone ...
-            worst, alone = -1, 0.0
-            for i in range(n):
-                least = a[i] - abs(g[i, 0]) - abs(g[i, 1]) - abs(g[i, 2])
-                if least > alone:
-                    worst, alone = i, least
-            kept = 0
-            if worst >= 0:
-                copy(few[0], rows[worst])
-                few[0, MULTIPLIER] = 1.0
-                kept = 1
-                gone = excess(few, kept, lo, hi, data, has, shortest, L) > MARGIN
-            # ... or by rows together
-            if not gone and minimax(a, g, n, 3, lam, 60) > -0.3:
-                kept = 0
-                for i in range(n):
-                    if lam[i] > 1e-14 and kept < MOST_ROWS:
-                        copy(few[kept], rows[i])
-                        few[kept, MULTIPLIER] = lam[i]
-                        kept += 1
-                gone = excess(few, kept, lo, hi, data, has, shortest, L) > MARGIN
-            if gone:
-                counts[LEAVES] += 1
-                write(log, counts, LEAF, 0, 0.0, lo, hi, few, kept)
-                break
-            # else cut slabs off by single rows
-            cut = False
-            for x in range(2):
-                if not has[x] or h[x] <= 0.0:
-                    continue
-                lo_e, hi_e, lo_i, hi_i = -1.0, 1.0, -1, -1
-                for i in range(n):
-                    rest = a[i]
-                    for y in range(3):
-                        if y != x:
-                            rest -= abs(g[i, y])
-                    if g[i, x] > 0.0 and -rest / g[i, x] < hi_e:
-                        hi_e, hi_i = -rest / g[i, x], i
-                    if g[i, x] < 0.0 and -rest / g[i, x] > lo_e:
-                        lo_e, lo_i = -rest / g[i, x], i
-                for side in range(2):
-                    i, e = (hi_i, hi_e) if side == 0 else (lo_i, -lo_e)
-                    if i < 0 or e > 0.9:
-                        continue
-                    e = max(-1.0, e + 1e-6)
-                    copy(s_lo, lo)
-                    copy(s_hi, hi)
-                    if side == 0:
-                        value = s_lo[x] = max(lo[x], c[x] + e * h[x])
-                    else:
-                        value = s_hi[x] = min(hi[x], c[x] - e * h[x])
-                    if not s_lo[x] < s_hi[x]:
-                        continue
-                    copy(few[0], rows[i])
-                    few[0, MULTIPLIER] = 1.0
-                    if excess(few, 1, s_lo, s_hi, data, has, shortest, L) > MARGIN:
-                        counts[SLABS] += 1
-                        if side == 0:
-                            hi[x] = value
-                        else:
-                            lo[x] = value
-                        write(log, counts, BELOW + side, x, value, lo, hi, few, 1)
-                        cut = True
-            for x in range(2):
-                if cut and has[x] and not lo[x] < hi[x]:
-                    gone = True  # the closed slabs together cover it
-            if gone:
-                counts[EMPTIES] += 1
-                write(log, counts, EMPTY, 0, 0.0, lo, hi, few, 0)
-                break
-            if not cut:
-                break
-        if gone:
+        trace.counts[BOXES] += 1
+        if _reduced_to_nothing(form, few, box, data, work, trace):
             continue
         x, width = 0, -1.0
         for y in range(2):
             if has[y] and np.log(hi[y] / lo[y]) > width:
                 x, width = y, np.log(hi[y] / lo[y])
-        if width < narrow or depth > STACK - 3:
-            if not aside:
+        if width < effort.narrow or depth > STACK - 3:
+            if not effort.aside:
                 copy(stack[depth, 0], lo)
                 copy(stack[depth, 1], hi)
                 return depth + 1, True
-            write(log, counts, ASIDE, 0, 0.0, lo, hi, few, 0)
+            write(trace, ASIDE, 0, 0.0, box, few, 0)
             continue
         middle = np.sqrt(lo[x] * hi[x])
-        for child in range(2):
-            copy(stack[depth, 0], lo)
-            copy(stack[depth, 1], hi)
-            stack[depth, 1 - child, x] = middle
-            depth += 1
-        write(log, counts, SPLIT, x, middle, lo, hi, few, 0)
+        push_halves(stack, depth, box, x, middle)
+        depth += 2
+        write(trace, SPLIT, x, middle, box, few, 0)
     return depth, False

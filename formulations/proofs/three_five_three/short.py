@@ -1,12 +1,13 @@
-"""3-5-3 with a middle segment on which nothing moves: it may vanish, T2 in [0, tau].
+"""3-5-3 with a middle segment on which nothing moves: the proof for T2 in [0, tau].
 
 Derivative k >= 1 of the middle piece times T2^(k-1) is, with r = T2/T1 and q = T2/T3,
 
     d1/T1 (B(s) + C(s) r) + d3/T3 (E(s) + F(s) q),   r in [0, tau/T1], q in [0, tau/T3],
 
-and must not exceed limit T2^(k-1) <= limit tau^(k-1): finite as T2 -> 0. T1 alone is branched on, as
-T3 = L - T1 - T2 follows to within tau; a segment on which nothing moves is dropped. Each interval of T1
-is discarded by one such derivative, or as T3 is too short for it.
+and must not exceed limit T2^(k-1) <= limit tau^(k-1). Both sides stay finite as T2 -> 0. The search
+branches on T1 alone, because T3 = L - T1 - T2 follows to within tau. An end segment on which nothing
+moves is dropped. Each interval of T1 is discarded by one such derivative, or because T3 would be too
+short.
 """
 
 from __future__ import annotations
@@ -20,17 +21,29 @@ from formulations.proofs.arithmetic.outward import add, down, horner, multiply, 
 
 
 @compiled
-def short_middle(data: Any, d: Any, has: Any, shortest: Any, L: float, tau: float, leaves: Any) -> int:
-    """Prove that no motion has T2 <= tau and total time L (see ``excess``).
+def short_middle(data: Any, tau: float, leaves: Any) -> int:
+    """Prove that no motion has T2 <= tau and total time L.
 
-    leaves: (m, 6) takes the discards, from the longest T1 down: its interval, joint, order (0: T3 is
-    too short), place, sign. Returns their number, or -1 if m do not suffice.
+    Parameters
+    ----------
+    data : RatioData
+        The task.
+    tau : float [s]
+        Upper end of T2.
+    leaves : ndarray, shape (m, 6)
+        Is filled with the discards, from the longest T1 down: the interval of T1 (two numbers), joint,
+        order (0: T3 is too short), place, sign.
+
+    Returns
+    -------
+    int
+        Number of discards; -1 if m do not suffice, or if an interval stays undecided.
     """
-    d_lo, d_hi, limit, basis = data
+    d, d_lo, d_hi, limit, basis = data.d, data.d_lo, data.d_hi, data.limit, data.basis
+    has, shortest, L = data.has, data.shortest, data.L
     dof = d.shape[1]
     stack = np.empty((200, 2))  # T1
-    # where only one of the ends moves, the other may take no time: one number, T1 <= L or T3 <= L, is
-    # left
+    # where only one end moves, the other may take no time, and a single number is left
     stack[0, 0] = 0.0 if not has[0] else (shortest[0] if has[1] else down(L - tau))
     stack[0, 1] = 0.0 if not has[0] else up(L - shortest[2])
     depth, count, boxes = 1, 0, 0

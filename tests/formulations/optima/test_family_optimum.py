@@ -34,7 +34,7 @@ from formulations import (
     load,
     longest_segment,
 )
-from formulations.optima.family.nlp import shortest_segments
+from formulations.optima.family.program import duration_scales
 
 THREE = [case for case in CASES if load(case).family == "3-5-3"]
 NO_SHRINKING = (Phase.explicit, Phase.generate)  # each example costs a second
@@ -277,7 +277,7 @@ def test_no_random_candidate_is_faster_than_the_optimum(problem: Problem, seed: 
     assume(problem.moving_joints)
     rng = np.random.default_rng(seed)
     t = np.exp(rng.uniform(-7.0, 7.0, (20_000, 3)))
-    t[:5000] = np.exp(rng.uniform(-1.0, 1.0, (5000, 3))) * shortest_segments(problem)
+    t[:5000] = np.exp(rng.uniform(-1.0, 1.0, (5000, 3))) * duration_scales(problem)
     try:
         found = family_optimum(problem)
     except NoFeasibleMotion:

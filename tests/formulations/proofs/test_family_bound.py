@@ -37,7 +37,7 @@ from formulations.proofs.arithmetic.outward import down, quadratic_least, up
 from formulations.proofs.certificate import certificate_of, certificate_of_proof, write_certificate
 from formulations.proofs.displacement import displacement_bound
 from formulations.proofs.events import ABOVE, ASIDE, BELOW, EMPTY, LEAF, SPLIT, TURN
-from formulations.proofs.every_motion.velocity_acceleration import every_motion
+from formulations.proofs.every_motion.velocity_acceleration import velocity_acceleration_bound
 from formulations.proofs.family import PROVERS
 from formulations.proofs.four_three_four import bound as four_three_four
 from formulations.proofs.proof import Proof
@@ -241,13 +241,13 @@ def test_the_bound_of_every_motion_is_nearly_that_of_one_segment() -> None:
         d, v, a = 10.0 ** rng.uniform(-3, 3), 10.0 ** rng.uniform(-2, 2), 10.0 ** rng.uniform(-2, 2)
         problem = Problem.of([[0.0], [d]], Limits.of(v, a, dof=1))
         fastest = d / v + v / a if d * a > v * v else 2.0 * np.sqrt(d / a)
-        assert fastest * 0.95 < every_motion(problem, 16).seconds < fastest
-        assert fastest * 0.99 < every_motion(problem, 48).seconds < fastest
+        assert fastest * 0.95 < velocity_acceleration_bound(problem, 16).seconds < fastest
+        assert fastest * 0.99 < velocity_acceleration_bound(problem, 48).seconds < fastest
 
 
 def test_with_velocities_alone_every_motion_is_bounded_by_displacement() -> None:
     for case in ("cobot", "bagging"):
-        seconds = every_motion(load(case)).seconds
+        seconds = velocity_acceleration_bound(load(case)).seconds
         assert seconds == pytest.approx(displacement_bound(load(case)), rel=1e-6)
 
 

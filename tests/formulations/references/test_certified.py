@@ -13,7 +13,7 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 
 from formulations import CASES, REFERENCES, Problem, load
-from formulations.proofs.every_motion.search import Search
+from formulations.proofs.every_motion.horizons import HorizonSearch
 
 
 def exact_displacement(problem: Problem) -> Fraction:
@@ -102,7 +102,7 @@ def holds(problem: Problem) -> None:
     assert outcome.seconds is not None
     assert Fraction(outcome.seconds) <= exact
     assert Fraction(float(np.nextafter(outcome.seconds, np.inf))) > exact
-    assert Fraction(Search(problem, None, None).bounds["displacement"]) <= exact
+    assert Fraction(HorizonSearch(problem, None, None).bounds["displacement"]) <= exact
 
 
 @pytest.mark.parametrize("case", CASES)

@@ -1,25 +1,57 @@
-"""Where the relaxation's rows are posed: plain numbers, one row each, good for any boxes and scales."""
+"""Cuts: where the rows of the relaxation are posed. Plain numbers that fit any boxes and scales."""
 
 from __future__ import annotations
 
 from dataclasses import dataclass
+from enum import IntEnum
 
 import numpy as np
-from numpy.typing import NDArray
 
-from formulations.problem.arrays import Array, Indices
+from formulations.problem.arrays import Array, Indices, Truths
 
-# rows (7), (8); (9), (10) and (3) at either end of a segment; (1) without and with a piece at top
-# speed; (2)
-TANGENT, HULL, PRODUCT_AT_START, PRODUCT_AT_END, PEAK_AT_START, PEAK_AT_END = range(6)
-STOP_AT_START, STOP_AT_END, DISTANCE, CRUISE, SPEED = range(6, 11)
+
+class Kind(IntEnum):
+    """The kinds of rows, with the numbers of their equations in ``rows`` and ``reach``."""
+
+    TANGENT = 0  # (7)
+    HULL = 1  # (8)
+    PRODUCT_AT_START = 2  # (9), at either end of a segment
+    PRODUCT_AT_END = 3
+    PEAK_AT_START = 4  # (10)
+    PEAK_AT_END = 5
+    STOP_AT_START = 6  # (3)
+    STOP_AT_END = 7
+    DISTANCE = 8  # (1) without a piece at top speed
+    CRUISE = 9  # (1) with one
+    SPEED = 10  # (2)
+
+    @property
+    def end(self) -> int:
+        """The end of the segment that the row is about: 0 start, 1 end."""
+        return int(self in (Kind.PRODUCT_AT_END, Kind.PEAK_AT_END, Kind.STOP_AT_END))
+
+
+PRODUCTS = (Kind.PRODUCT_AT_START, Kind.PRODUCT_AT_END)
+PEAKS = (Kind.PEAK_AT_START, Kind.PEAK_AT_END)
+STOPS = (Kind.STOP_AT_START, Kind.STOP_AT_END)
+DISTANCES = (Kind.DISTANCE, Kind.CRUISE)
 
 
 @dataclass(frozen=True)
 class Cuts:
-    """A table of rows: kind, segment, joint (m,); sign (m,) of the motion; at (m, 6).
+    """A table with one cut per line.
 
-    at: t [s], the number of a corner or c [rad/s^3] in the first column, or the switches.
+    Attributes
+    ----------
+    kind : Indices, shape (m,)
+        A ``Kind``.
+    segment, joint : Indices, shape (m,)
+        Numbers within the relaxed problem.
+    sign : Array, shape (m,)
+        Direction of motion, 1 or -1.
+    at : Array, shape (m, 6)
+        The place. First column: t [s] of (7) and (8), the number of a corner of (9), c [rad/s^3] of
+        (10). The first two columns of (2) and (3), all six of (1): switches in [0, 1].
     """
 
     kind: Indices
@@ -31,8 +63,13 @@ class Cuts:
     def __len__(self) -> int:
         return len(self.kind)
 
-    def __getitem__(self, which: Indices | NDArray[np.bool_] | slice) -> Cuts:
+    def __getitem__(self, which: Indices | Truths | slice) -> Cuts:
         return Cuts(*(column[which] for column in vars(self).values()))
+
+    @staticmethod
+    def none() -> Cuts:
+        """A table without lines."""
+        return Cuts.of(Kind.TANGENT, np.arange(0), np.empty(0))
 
     @staticmethod
     def of(
@@ -42,7 +79,18 @@ class Cuts:
         joint: int | Indices = 0,
         sign: float | Array = 1.0,
     ) -> Cuts:
-        """A table from columns or single values; at: (m,) or (m, w)."""
+        """Make a table from columns or single values.
+
+        Parameters
+        ----------
+        kind, joint, sign : scalar or array, shape (m,)
+        segment : Indices, shape (m,)
+        at : Array, shape (m,) or (m, w)
+
+        Returns
+        -------
+        Cuts
+        """
         m = len(segment)
         wide = np.zeros((m, 6))
         wide[:, : 1 if at.ndim == 1 else at.shape[1]] = at.reshape(m, -1 if m else 1)
@@ -53,6 +101,15 @@ class Cuts:
 
     @staticmethod
     def joined(tables: list[Cuts]) -> Cuts:
-        """Several tables as one."""
+        """Put several tables below one another.
+
+        Parameters
+        ----------
+        tables : list of Cuts
+
+        Returns
+        -------
+        Cuts
+        """
         columns = zip(*(vars(table).values() for table in tables), strict=True)
         return Cuts(*(np.concatenate(column) for column in columns))

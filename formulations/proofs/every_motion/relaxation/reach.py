@@ -1,4 +1,4 @@
-"""How far, and how fast, one joint can get in one segment: inequalities every motion satisfies.
+"""How far and how fast one joint can get in one segment: inequalities that every motion satisfies.
 
 Segment k takes T seconds, s = t / T in [0, 1]; dv/ds = W = T a, dW/ds = T^2 j, and the mean of v over
 s is d / T. So |v| <= V, |W| <= A T and |dW/ds| <= J T^2; v0, W0, v1, W1 are the states at both ends.
@@ -28,7 +28,7 @@ s3, top speed until s4, and the mirror image. Where that motion never reaches V,
 
     v1 - v0  <=  s1 W0 + (1 - s2) W1 + (s2 - s1) A T + (s1^2 + (1 - s2)^2) / 2 J T^2.            (2)
 
-**Stop.** A joint must turn round before it has used the room r up to its position limit: for any
+**Stop.** A joint must turn round before it has gone the distance r to its position limit: for any
 0 <= s1 <= s2 <= 1,
 
     s2 v0 + p W0  <=  r / T + (s2 - s1)^2 / 2 A T + g J T^2,                                     (3)
@@ -38,11 +38,12 @@ Proof. r / T is at least the integral of v up to s2, s2 v0 + int (s2 - s) W ds; 
 [s1, s2], and by parts as above on [0, s1]. It is tight for jerk -J until s1 and acceleration -A until
 the joint rests at s2.
 
-All hold with the signs of motion turned, (3) with time turned too. Without a jerk limit s1 = 0,
-s3 = s2, s5 = s4, s6 = 1 in (1), s1 = 0, s2 = 1 in (2) and s1 = 0 in (3) leave no term in W or J.
+All three hold for the opposite direction of motion too, and (3) also for reversed time. Without a jerk
+limit, s1 = 0, s3 = s2, s5 = s4, s6 = 1 in (1), s1 = 0, s2 = 1 in (2) and s1 = 0 in (3) leave no term in
+W or J.
 
-Every coefficient below is a sum of products of differences that are not negative: a few roundings,
-each relative, and no cancellation.
+Every coefficient below is a sum of products of nonnegative differences. Its relative error is a few
+roundings, since nothing cancels.
 """
 
 from __future__ import annotations
@@ -53,15 +54,24 @@ from formulations.problem.arrays import Array
 
 
 def distance_coefficients(switches: Array, cruises: bool) -> tuple[Array, ...]:
-    """Coefficients of (1): of v0, W0, v1, W1, V, A T and J T^2, each (m,).
+    """Compute the coefficients of (1).
 
-    switches: (m, 6), ascending in [0, 1]. cruises: whether there is a piece at top speed; if not, the
-    third and the fourth switch are not used.
+    Parameters
+    ----------
+    switches : Array, shape (m, 6)
+        Ascending in [0, 1].
+    cruises : bool
+        Whether there is a piece at top speed. If not, the third and the fourth switch are not used.
+
+    Returns
+    -------
+    tuple of Array, shape (m,)
+        Of v0, W0, v1, W1, V, A T and J T^2.
     """
     s1, s2, s3, s4, s5, s6 = switches.T
     if cruises:
         top, turn = 0.5 * ((s4 - s3) + (s5 - s2)), ((s3 - s2) ** 3 + (s5 - s4) ** 3) / 12.0
-    else:  # one piece of jerk -J from s2 to s5, which either half has to itself
+    else:  # one piece of jerk -J from s2 to s5, whose halves stand for both
         s3, s4 = s5, s2
         top, turn = np.zeros_like(s1), (s5 - s2) ** 3 / 12.0
     e4, e5, e6 = 1.0 - s4, 1.0 - s5, 1.0 - s6
@@ -74,14 +84,36 @@ def distance_coefficients(switches: Array, cruises: bool) -> tuple[Array, ...]:
 
 
 def speed_coefficients(switches: Array) -> tuple[Array, ...]:
-    """Coefficients of (2): of W0, W1, A T and J T^2, each (m,). switches: (m, 2), ascending."""
+    """Compute the coefficients of (2).
+
+    Parameters
+    ----------
+    switches : Array, shape (m, 2)
+        Ascending in [0, 1].
+
+    Returns
+    -------
+    tuple of Array, shape (m,)
+        Of W0, W1, A T and J T^2.
+    """
     s1, s2 = switches.T
     e2 = 1.0 - s2
     return s1, e2, s2 - s1, 0.5 * (s1**2 + e2**2)
 
 
 def stop_coefficients(switches: Array) -> tuple[Array, ...]:
-    """Coefficients of (3): of v0, W0, A T and J T^2, each (m,). switches: (m, 2), ascending."""
+    """Compute the coefficients of (3).
+
+    Parameters
+    ----------
+    switches : Array, shape (m, 2)
+        Ascending in [0, 1].
+
+    Returns
+    -------
+    tuple of Array, shape (m,)
+        Of v0, W0, A T and J T^2.
+    """
     s1, s2 = switches.T
     rest = s2 - s1
     return s2, 0.5 * s1 * (rest + s2), 0.5 * rest**2, s1**2 * (0.5 * rest + s1 / 6.0)

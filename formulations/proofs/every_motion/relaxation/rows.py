@@ -11,14 +11,19 @@ a joint at a waypoint; W = T a at both ends of a segment. Rows:
     |v| + (2 c W - c^2 T^2) / (2 J) <= V     tangent of |v| + a^2 / (2 J) <= V, c = a / T        (10)
     (1), (2) and (3) of ``reach``.
 
-(8) is what makes the relaxation tight: with (6) and (7) it bounds the convex hull of the curve
-(T, 1 / T, T^2) where it matters; the secant of T^2 is the case t = l. In (10) a falls to 0, or rose
-from it, with |j| <= J at a speed within V. The least sum of T over these rows is a lower bound whatever
-t, c and switches they are posed at.
+Row (8) makes the relaxation tight: together with (6) and (7) it bounds the convex hull of the curve
+(T, 1 / T, T^2) where the optimum lies; the secant of T^2 is the case t = l. In (10) the acceleration a
+falls to 0, or rose from 0, with |j| <= J, and the speed stays within V meanwhile. The least sum of T
+over these rows is a lower bound for every choice of t, c and the switches.
 
-Rounding: coefficients are the exact ones but for at most 32 roundings, none of which cancels. Each
+Rounding. A coefficient differs from the exact one by at most 32 roundings, none of which cancels. Each
 right hand side is raised by 64 u sum |a_i| max |x_i|, u = 2^-53, so that the rows in floats hold for
 every motion.
+
+References
+----------
+McCormick 1976, "Computability of global solutions to factorable nonconvex programs: part I",
+Mathematical Programming 10, pp. 147-175.
 """
 
 from __future__ import annotations
@@ -26,67 +31,120 @@ from __future__ import annotations
 from dataclasses import dataclass
 
 import numpy as np
-from numpy.typing import NDArray
 from scipy.sparse import csr_array, vstack
 
-from formulations.problem.arrays import Array, Indices
-from formulations.proofs.every_motion.relaxation.cuts import (
-    CRUISE,
-    HULL,
-    PEAK_AT_END,
-    PEAK_AT_START,
-    PRODUCT_AT_END,
-    PRODUCT_AT_START,
-    SPEED,
-    STOP_AT_END,
-    STOP_AT_START,
-    TANGENT,
-    Cuts,
-)
+from formulations.problem.arrays import Array, Indices, Truths
+from formulations.proofs.every_motion.relaxation.boxes import Boxes
+from formulations.proofs.every_motion.relaxation.cuts import PEAKS, PRODUCTS, STOPS, Cuts, Kind
 from formulations.proofs.every_motion.relaxation.reach import (
     distance_coefficients,
     speed_coefficients,
     stop_coefficients,
 )
-from formulations.proofs.every_motion.relaxation.task import DOWN, UP, Task
+from formulations.proofs.every_motion.relaxation.relaxed_problem import DOWN, UP, RelaxedProblem
 
 _ALLOWANCE = 64.0 * 2.0**-53
+_LARGEST = 2.0**36  # coefficients below this are not scaled; HiGHS refuses those above 1e15
 
 
 @dataclass(frozen=True)
 class Rows:
-    """Rows matrix x <= upper: (m, size) and (m,)."""
+    """Rows matrix x <= upper.
+
+    Attributes
+    ----------
+    matrix : csr_array, shape (m, size)
+    upper : Array, shape (m,)
+    scale : Array, shape (m,)
+        The power of two by which each row, as the equations above have it, was multiplied.
+    """
 
     matrix: csr_array
     upper: Array
+    scale: Array
 
     def __len__(self) -> int:
         return len(self.upper)
 
+    def __getitem__(self, which: Indices | Truths) -> Rows:
+        return Rows(self.matrix[which], self.upper[which], self.scale[which])
+
+    @property
+    def largest(self) -> Array:
+        """The largest modulus of a coefficient in each row, (m,)."""
+        return np.asarray(abs(self.matrix).max(axis=1).toarray().ravel())
+
+    @property
+    def finite(self) -> Truths:
+        """Which rows consist of finite numbers, (m,)."""
+        return np.asarray(np.isfinite(self.largest) & np.isfinite(self.upper))
+
     def normal(self) -> Rows:
         """The same rows with largest coefficients between 1 and 2: powers of two do not round."""
-        largest = abs(self.matrix).max(axis=1).toarray().ravel()
-        scale = np.exp2(-np.floor(np.log2(largest)))
-        return Rows(csr_array(self.matrix.multiply(scale[:, None])), self.upper * scale)
+        return self._scaled(np.exp2(-np.floor(np.log2(self.largest))))
+
+    def in_range(self) -> Rows:
+        """The same rows, made ``normal`` where a coefficient is too large for the solver."""
+        largest = self.largest
+        high = (largest > _LARGEST) & np.isfinite(largest)
+        if not high.any():
+            return self
+        return self._scaled(np.where(high, np.exp2(-np.floor(np.log2(largest))), 1.0))
+
+    def _scaled(self, scale: Array) -> Rows:
+        matrix = csr_array(self.matrix.multiply(scale[:, None]))
+        return Rows(matrix, self.upper * scale, self.scale * scale)
 
     @staticmethod
     def joined(blocks: list[Rows]) -> Rows:
-        """Several blocks as one."""
+        """Put several blocks below one another.
+
+        Parameters
+        ----------
+        blocks : list of Rows
+
+        Returns
+        -------
+        Rows
+        """
         matrix = csr_array(vstack([block.matrix for block in blocks], format="csr"))
-        return Rows(matrix, np.concatenate([block.upper for block in blocks]))
+        upper, scale = (
+            np.concatenate([getattr(b, name) for b in blocks]) for name in ("upper", "scale")
+        )
+        return Rows(matrix, upper, scale)
 
 
 class Frame:
-    """Boxes and scales for one task, and the rows in them.
+    """The variables of one relaxed problem in its boxes: their order, their units and their rows.
 
-    durations: (K, 2) [s] and accelerations: (K + 1, n, 2) [rad/s^2], boxes that hold every motion of at
-    most ``task.horizon`` seconds. typical: (K,) [s], the unit of each duration.
+    Attributes
+    ----------
+    T, inverse, square : Indices, shape (K,)
+        Columns of the durations, of 1 / T and of T^2, all in units of ``typical``.
+    v, a : Indices, shape (K + 1, n)
+        Columns of velocities and accelerations, in units of the limits of ``relaxed``.
+    W : Indices, shape (K, n, 2)
+        Columns of T a at both ends, in units of T and a.
+    box : Array, shape (size, 2)
+        Lower and upper bound of every variable.
+    cost : Array, shape (size,)
+        The total time [s].
     """
 
-    def __init__(self, task: Task, durations: Array, accelerations: Array, typical: Array) -> None:
-        self.task, self.typical = task, typical
-        self.durations, self.accelerations = durations, accelerations
-        K, n = self.K, self.n = task.displacements.shape
+    def __init__(self, relaxed: RelaxedProblem, boxes: Boxes, typical: Array) -> None:
+        """Set up the variables.
+
+        Parameters
+        ----------
+        relaxed : RelaxedProblem
+        boxes : Boxes
+            They hold every motion of at most ``relaxed.horizon`` seconds.
+        typical : Array, shape (K,) [s]
+            The unit of each duration.
+        """
+        self.relaxed, self.boxes, self.typical = relaxed, boxes, typical
+        durations, accelerations = boxes.durations, boxes.accelerations
+        K, n = self.K, self.n = relaxed.displacements.shape
         ends = np.cumsum([K, K, K, (K + 1) * n, (K + 1) * n, 2 * K * n])
         self.size = int(ends[-1])
         numbers = np.split(np.arange(self.size), ends[:-1])
@@ -95,22 +153,22 @@ class Frame:
         self.W = numbers[5].reshape(K, n, 2)
         self.low, self.high = durations[:, 0] / typical * DOWN, durations[:, 1] / typical * UP
         # velocities and accelerations in units of their limits, W = T a in those of T and a
-        share = accelerations / task.acceleration[:, None]
+        share = accelerations / relaxed.acceleration[:, None]
         self.least_a = share[..., 0] - np.abs(share[..., 0]) * (UP - 1.0)
         self.most_a = share[..., 1] + np.abs(share[..., 1]) * (UP - 1.0)
         for bound in (self.least_a, self.most_a):
             bound[[0, -1]] = 0.0
-            bound[:, ~task.has_jerk] = 0.0
+            bound[:, ~relaxed.has_jerk] = 0.0
         self.box = self._boxes()
         self.cost = np.zeros(self.size)
         self.cost[self.T] = typical
         self._sizes = np.abs(self.box).max(axis=1)
         # dv/ds = T a and dW/ds = T^2 j in units of the velocity limit, and d / T, at typical durations
         scale = typical[:, None]
-        self.ramp = scale * (task.acceleration / task.velocity)
-        self.bend = scale**2 * (task.jerk / task.velocity)
-        self.distance = task.displacements / task.velocity / scale
-        self.room = task.room / task.velocity[:, None]
+        self.ramp = scale * (relaxed.acceleration / relaxed.velocity)
+        self.bend = scale**2 * (relaxed.jerk / relaxed.velocity)
+        self.distance = relaxed.displacements / relaxed.velocity / scale
+        self.room = relaxed.room / relaxed.velocity[:, None]
 
     def _boxes(self) -> Array:
         low, high = self.low, self.high
@@ -129,80 +187,123 @@ class Frame:
     def fixed(self) -> Rows:
         """Rows (5) and (6)."""
         low, high, one = self.low, self.high, np.ones(self.K)
-        share = list(self.typical[:, None] / self.task.horizon)
+        share = list(self.typical[:, None] / self.relaxed.horizon)
         total = self._rows([np.array([column]) for column in self.T], share, np.ones(1))
         columns = [self.inverse, self.T]
         secants = self._rows(columns, [one, 1.0 / (low * high)], 1.0 / low + 1.0 / high).normal()
         return Rows.joined([total, secants])
 
     def of(self, cuts: Cuts) -> Rows:
-        """One row for each cut, in their order."""
+        """Compute one row for each cut, in the order of the table.
+
+        Parameters
+        ----------
+        cuts : Cuts
+
+        Returns
+        -------
+        Rows
+        """
         blocks, order = [], []
         for kind in np.unique(cuts.kind):
             which = np.flatnonzero(cuts.kind == kind)
-            blocks.append(self._of_kind(int(kind), cuts[which]))
+            blocks.append(self._of_kind(Kind(int(kind)), cuts[which]))
             order.append(which)
-        rows = Rows.joined(blocks)
-        back = np.argsort(np.concatenate(order))
-        return Rows(rows.matrix[back], rows.upper[back])
+        return Rows.joined(blocks)[np.argsort(np.concatenate(order))].in_range()
 
-    def _of_kind(self, kind: int, cuts: Cuts) -> Rows:
+    def _of_kind(self, kind: Kind, cuts: Cuts) -> Rows:
+        if kind in (Kind.TANGENT, Kind.HULL):
+            return self._of_duration(kind, cuts)
+        if kind in PRODUCTS:
+            return self._product(kind.end, cuts)
+        if kind in PEAKS:
+            return self._peak(kind.end, cuts)
+        if kind in STOPS:
+            return self._stop(kind.end, cuts)
+        return self._speed(cuts) if kind == Kind.SPEED else self._distance(kind == Kind.CRUISE, cuts)
+
+    def place(self, cuts: Cuts) -> Array:
+        """Where the rows (7) and (8) of these cuts are posed, in units of ``typical``, in the boxes.
+
+        Parameters
+        ----------
+        cuts : Cuts
+
+        Returns
+        -------
+        Array, shape (m,)
+        """
+        k = cuts.segment
+        return np.asarray(np.clip(cuts.at[:, 0] / self.typical[k], self.low[k], self.high[k]))
+
+    def _of_duration(self, kind: Kind, cuts: Cuts) -> Rows:
+        k, t, one = cuts.segment, self.place(cuts), np.ones(len(cuts))
+        if kind == Kind.TANGENT:
+            return self._rows([self.T[k], self.inverse[k]], [-1.0 / t**2, -one], -2.0 / t).normal()
+        h = self.high[k]
+        columns = [self.square[k], self.T[k], self.inverse[k]]
+        a = [one, -(h + 2.0 * t), -h * t**2]
+        return self._rows(columns, a, -(2.0 * h * t + t**2)).normal()
+
+    def _product(self, end: int, cuts: Cuts) -> Rows:
+        k, j = cuts.segment, cuts.joint
+        t, e, side = self.corner(cuts, end)
+        columns = [self.W[k, j, end], self.a[k + end, j], self.T[k]]
+        return self._rows(columns, [-side, side * t, side * e], side * t * e)
+
+    def _peak(self, end: int, cuts: Cuts) -> Rows:
+        k, j = cuts.segment, cuts.joint
+        _require(self.relaxed.has_jerk[j])
+        c = cuts.at[:, 0] * self.typical[k] / self.relaxed.acceleration[j]
+        share = self.ramp[k, j] ** 2 / self.bend[k, j]
+        columns = [self.v[k + end, j], self.W[k, j, end], self.square[k]]
+        return self._rows(columns, [cuts.sign, share * c, -0.5 * share * c**2], np.ones(len(cuts)))
+
+    def _stop(self, end: int, cuts: Cuts) -> Rows:
         k, j, sign = cuts.segment, cuts.joint, cuts.sign
-        one = np.ones(len(k))
-        if kind in (TANGENT, HULL):
-            t = np.clip(cuts.at[:, 0] / self.typical[k], self.low[k], self.high[k])
-            if kind == TANGENT:
-                rows = self._rows([self.T[k], self.inverse[k]], [-1.0 / t**2, -one], -2.0 / t)
-                return rows.normal()
-            h = self.high[k]
-            columns = [self.square[k], self.T[k], self.inverse[k]]
-            a = [one, -(h + 2.0 * t), -h * t**2]
-            return self._rows(columns, a, -(2.0 * h * t + t**2)).normal()
-        if kind in (PRODUCT_AT_START, PRODUCT_AT_END):
-            end = int(kind == PRODUCT_AT_END)
-            t, e, side = self.corner(cuts, end)
-            columns = [self.W[k, j, end], self.a[k + end, j], self.T[k]]
-            return self._rows(columns, [-side, side * t, side * e], side * t * e)
+        c_v, c_W, c_A, c_J = stop_coefficients(cuts.at[:, :2])
+        # with time turned W changes its sign, and the joint comes from where it would go
+        c_W = -c_W if end else c_W
+        _require(self.relaxed.has_jerk[j] | (c_J == 0.0))
+        room = self.room[k + end, j, ((sign > 0.0) != bool(end)).astype(int)] / self.typical[k]
+        columns = [self.v[k + end, j], self.W[k, j, end], self.inverse[k], self.T[k], self.square[k]]
         ramp, bend = self.ramp[k, j], self.bend[k, j]
-        limited = self.task.has_jerk[j]
-        if kind in (PEAK_AT_START, PEAK_AT_END):
-            _require(limited)
-            end = int(kind == PEAK_AT_END)
-            c = cuts.at[:, 0] * self.typical[k] / self.task.acceleration[j]
-            share = ramp**2 / bend
-            columns = [self.v[k + end, j], self.W[k, j, end], self.square[k]]
-            return self._rows(columns, [sign, share * c, -0.5 * share * c**2], one)
-        if kind in (STOP_AT_START, STOP_AT_END):
-            end = int(kind == STOP_AT_END)
-            c_v, c_W, c_A, c_J = stop_coefficients(cuts.at[:, :2])
-            # time turned: W changes its sign, and the joint comes from where it would go
-            c_W = -c_W if end else c_W
-            _require(limited | (c_J == 0.0))
-            room = self.room[k + end, j, ((sign > 0.0) != bool(end)).astype(int)] / self.typical[k]
-            columns = [
-                self.v[k + end, j],
-                self.W[k, j, end],
-                self.inverse[k],
-                self.T[k],
-                self.square[k],
-            ]
-            a = [sign * c_v, sign * c_W * ramp, -room, -c_A * ramp, -c_J * bend]
-            return self._rows(columns, a, np.zeros(len(k)))
-        v0, v1, W0, W1 = self.v[k, j], self.v[k + 1, j], self.W[k, j, 0], self.W[k, j, 1]
-        T, square = self.T[k], self.square[k]
-        if kind == SPEED:
-            c_W0, c_W1, c_A, c_J = speed_coefficients(cuts.at[:, :2])
-            _require(limited | (c_J == 0.0))
-            a = [sign, -sign, -sign * c_W0 * ramp, -sign * c_W1 * ramp, -c_A * ramp, -c_J * bend]
-            return self._rows([v1, v0, W0, W1, T, square], a, np.zeros(len(k)))
-        c_v0, c_W0, c_v1, c_W1, c_V, c_A, c_J = distance_coefficients(cuts.at, kind == CRUISE)
-        _require(limited | (c_J == 0.0))
+        a = [sign * c_v, sign * c_W * ramp, -room, -c_A * ramp, -c_J * bend]
+        return self._rows(columns, a, np.zeros(len(k)))
+
+    def _speed(self, cuts: Cuts) -> Rows:
+        k, j, sign = cuts.segment, cuts.joint, cuts.sign
+        c_W0, c_W1, c_A, c_J = speed_coefficients(cuts.at[:, :2])
+        _require(self.relaxed.has_jerk[j] | (c_J == 0.0))
+        ramp, bend = self.ramp[k, j], self.bend[k, j]
+        columns = [self.v[k + 1, j], self.v[k, j], self.W[k, j, 0], self.W[k, j, 1]]
+        a = [sign, -sign, -sign * c_W0 * ramp, -sign * c_W1 * ramp, -c_A * ramp, -c_J * bend]
+        return self._rows([*columns, self.T[k], self.square[k]], a, np.zeros(len(k)))
+
+    def _distance(self, cruises: bool, cuts: Cuts) -> Rows:
+        k, j, sign = cuts.segment, cuts.joint, cuts.sign
+        c_v0, c_W0, c_v1, c_W1, c_V, c_A, c_J = distance_coefficients(cuts.at, cruises)
+        _require(self.relaxed.has_jerk[j] | (c_J == 0.0))
+        ramp, bend = self.ramp[k, j], self.bend[k, j]
+        columns = [self.inverse[k], self.v[k, j], self.v[k + 1, j], self.W[k, j, 0], self.W[k, j, 1]]
         a = [sign * self.distance[k, j], -sign * c_v0, -sign * c_v1, -sign * c_W0 * ramp]
         a += [-sign * c_W1 * ramp, -c_A * ramp, -c_J * bend]
-        return self._rows([self.inverse[k], v0, v1, W0, W1, T, square], a, c_V)
+        return self._rows([*columns, self.T[k], self.square[k]], a, c_V)
 
     def corner(self, cuts: Cuts, end: int) -> tuple[Array, Array, Array]:
-        """The bounds t, e of a product (9) and the sign of the row, each (m,)."""
+        """Return the bounds t and e of products (9) and the sign of their rows.
+
+        Parameters
+        ----------
+        cuts : Cuts
+        end : int
+            0 for the start of a segment, 1 for its end.
+
+        Returns
+        -------
+        t, e, sign : Array, shape (m,)
+            In units of ``typical`` and of the acceleration limits.
+        """
         k, j, corner = cuts.segment, cuts.joint, cuts.at[:, 0]
         t = np.where(corner % 2 == 0, self.low[k], self.high[k])
         upper = (corner == 1) | (corner == 2)
@@ -210,15 +311,15 @@ class Frame:
         return t, e, np.where(corner < 2, 1.0, -1.0)
 
     def _rows(self, columns: list[Indices], coefficients: list[Array], upper: Array) -> Rows:
-        """Rows with the allowance for rounding; columns and coefficients: w of (m,)."""
+        """Rows of w coefficients each, with the allowance for rounding; ``columns[i]`` is (m,)."""
         where, a = np.stack(columns, axis=1), np.stack(coefficients, axis=1)
         size = (np.abs(a) * self._sizes[where]).sum(axis=1) + np.abs(upper)
         starts = np.arange(0, a.size + 1, a.shape[1])
         matrix = csr_array((a.ravel(), where.ravel(), starts), shape=(len(upper), self.size))
-        return Rows(matrix, upper + _ALLOWANCE * size)
+        return Rows(matrix, upper + _ALLOWANCE * size, np.ones(len(upper)))
 
 
-def _require(sound: NDArray[np.bool_]) -> None:
-    """Rows that speak of a jerk need a limit of it."""
+def _require(sound: Truths) -> None:
+    """Refuse rows with a term in the jerk limit of a joint that has none."""
     if not sound.all():
-        raise ValueError("a row needs a jerk limit where there is none")
+        raise ValueError("a row needs the jerk limit of a joint that has none")

@@ -1,24 +1,14 @@
-"""Rows that cut a point off: the deepest of each kind, for every segment, joint and sign."""
+"""Separation: the rows that cut a given point off, for every segment, joint and sign.
+
+Of each kind that row is proposed which the point violates most; those that it violates are kept.
+"""
 
 from __future__ import annotations
 
 import numpy as np
 
 from formulations.problem.arrays import Array, Indices
-from formulations.proofs.every_motion.relaxation.cuts import (
-    CRUISE,
-    DISTANCE,
-    HULL,
-    PEAK_AT_END,
-    PEAK_AT_START,
-    PRODUCT_AT_END,
-    PRODUCT_AT_START,
-    SPEED,
-    STOP_AT_END,
-    STOP_AT_START,
-    TANGENT,
-    Cuts,
-)
+from formulations.proofs.every_motion.relaxation.cuts import PEAKS, PRODUCTS, STOPS, Cuts, Kind
 from formulations.proofs.every_motion.relaxation.rows import Frame
 from formulations.proofs.every_motion.relaxation.switches import (
     farthest,
@@ -29,54 +19,66 @@ from formulations.proofs.every_motion.relaxation.switches import (
 
 
 def separate(frame: Frame, x: Array, tolerance: float) -> Cuts:
-    """Cuts that x (size,) violates by more than ``tolerance``, in units of the variables."""
+    """Find the cuts that a point violates.
+
+    Parameters
+    ----------
+    frame : Frame
+    x : Array, shape (size,)
+    tolerance : float
+        A cut is kept if its row is violated by more, in units of the variables.
+
+    Returns
+    -------
+    Cuts
+    """
     proposed = [_durations(frame, x), *_products(frame), *_peaks(frame, x)]
     for sign in (1.0, -1.0):
         proposed += [*_reach(frame, x, sign), *_stops(frame, x, sign)]
     cuts = Cuts.joined(proposed)
     rows = frame.of(cuts)
-    return cuts[rows.matrix @ x - rows.upper > tolerance]
+    return cuts[rows.finite & (rows.matrix @ x - rows.upper > tolerance)]
 
 
 def _durations(frame: Frame, x: Array) -> Cuts:
-    """(7) at T itself; (8) where it is least: t = (h - T) / (h / T - 1)."""
+    """Rows (7) at T itself, rows (8) at their deepest: t = (h - T) / (h / T - 1)."""
     T, inverse, h = x[frame.T], x[frame.inverse], frame.high
     t = (h - T) / np.maximum(h * inverse - 1.0, 1e-300)
     k = np.arange(frame.K)
     at = np.concatenate([T, np.clip(t, frame.low, h)]) * np.tile(frame.typical, 2)
-    return Cuts.of(np.repeat([TANGENT, HULL], frame.K), np.tile(k, 2), at)
+    return Cuts.of(np.repeat([Kind.TANGENT, Kind.HULL], frame.K), np.tile(k, 2), at)
 
 
 def _products(frame: Frame) -> list[Cuts]:
-    """(9) in all four corners, wherever it is not plain: at the ends of the motion a = 0."""
-    joints = np.flatnonzero(frame.task.has_jerk)
+    """Rows (9) in all four corners, except at both ends of the motion, where a = 0."""
+    joints = np.flatnonzero(frame.relaxed.has_jerk)
     found = []
-    for end, kind in enumerate((PRODUCT_AT_START, PRODUCT_AT_END)):
+    for kind in PRODUCTS:
         k, j = _grid(frame.K, joints)
-        inner = (k + end > 0) & (k + end < frame.K)
+        inner = (k + kind.end > 0) & (k + kind.end < frame.K)
         k, j = np.tile(k[inner], 4), np.tile(j[inner], 4)
         found.append(Cuts.of(kind, k, np.repeat(np.arange(4.0), inner.sum()), j))
     return found
 
 
 def _peaks(frame: Frame, x: Array) -> list[Cuts]:
-    """(10) at the ratio W / T^2 itself."""
-    joints = np.flatnonzero(frame.task.has_jerk)
+    """Rows (10) at the ratio W / T^2 of the point."""
+    joints = np.flatnonzero(frame.relaxed.has_jerk)
     found = []
-    for end, kind in enumerate((PEAK_AT_START, PEAK_AT_END)):
+    for kind in PEAKS:
         k, j = _grid(frame.K, joints)
-        unit = frame.task.acceleration[j] / frame.typical[k]
-        at = x[frame.W[k, j, end]] / x[frame.square[k]] * unit
-        found.append(Cuts.of(kind, k, at, j, np.sign(x[frame.v[k + end, j]])))
+        unit = frame.relaxed.acceleration[j] / frame.typical[k]
+        at = x[frame.W[k, j, kind.end]] / x[frame.square[k]] * unit
+        found.append(Cuts.of(kind, k, at, j, np.sign(x[frame.v[k + kind.end, j]])))
     return found
 
 
 def _reach(frame: Frame, x: Array, sign: float) -> list[Cuts]:
-    """(1) and (2) at the switches of the motion that goes farthest, or gains most speed."""
-    task = frame.task
+    """Rows (1) and (2) at the switches of the motion that goes farthest or gains most speed."""
+    has_jerk = frame.relaxed.has_jerk
     found = []
     for limited in (True, False):
-        k, j = _grid(frame.K, np.flatnonzero(task.has_jerk == limited))
+        k, j = _grid(frame.K, np.flatnonzero(has_jerk == limited))
         if not len(k):
             continue
         ramp, J = frame.ramp[k, j], frame.bend[k, j] * x[frame.square[k]]
@@ -90,21 +92,21 @@ def _reach(frame: Frame, x: Array, sign: float) -> list[Cuts]:
         else:
             six, cruises = farthest_without_jerk(v0, v1, top, A)
             two = np.stack([0.0 * A, top], axis=1)
-        found.append(Cuts.of(np.where(cruises, CRUISE, DISTANCE), k, six, j, sign))
-        found.append(Cuts.of(SPEED, k, two, j, sign))
+        found.append(Cuts.of(np.where(cruises, Kind.CRUISE, Kind.DISTANCE), k, six, j, sign))
+        found.append(Cuts.of(Kind.SPEED, k, two, j, sign))
     return found
 
 
 def _stops(frame: Frame, x: Array, sign: float) -> list[Cuts]:
-    """(3) at the switches of the soonest stop, where there is a position limit."""
+    """Rows (3) at the switches of the soonest stop, where there is a position limit."""
     found = []
-    jerk = np.where(frame.task.has_jerk, frame.bend, np.inf) * x[frame.square][:, None]
-    for end, kind in enumerate((STOP_AT_START, STOP_AT_END)):
-        side = int((sign > 0.0) != bool(end))
-        room = frame.room[end : frame.K + end, :, side]
+    jerk = np.where(frame.relaxed.has_jerk, frame.bend, np.inf) * x[frame.square][:, None]
+    for kind in STOPS:
+        side = int((sign > 0.0) != bool(kind.end))
+        room = frame.room[kind.end : frame.K + kind.end, :, side]
         k, j = np.nonzero(np.isfinite(room))
-        turned = -1.0 if end else 1.0
-        v, W = sign * x[frame.v[k + end, j]], turned * sign * x[frame.W[k, j, end]]
+        turned = -1.0 if kind.end else 1.0
+        v, W = sign * x[frame.v[k + kind.end, j]], turned * sign * x[frame.W[k, j, kind.end]]
         A = np.maximum(frame.ramp[k, j] * x[frame.T[k]], 1e-300)
         two = soonest_stop(v, W * frame.ramp[k, j], A, jerk[k, j])
         found.append(Cuts.of(kind, k, two, j, sign))
@@ -112,4 +114,5 @@ def _stops(frame: Frame, x: Array, sign: float) -> list[Cuts]:
 
 
 def _grid(K: int, joints: Indices) -> tuple[Indices, Indices]:
+    """All pairs of a segment and one of the joints."""
     return np.repeat(np.arange(K), len(joints)), np.tile(joints, K)

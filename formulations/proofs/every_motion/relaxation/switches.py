@@ -5,10 +5,10 @@ and lowering it as late as the ends allow puts the largest mean of v at
 
     W(s) = max(min(W0 + J s, A, J (c - s)), -A, W1 - J (1 - s))                                  (4)
 
-with the one c that ends at v1; if v would pass V, each end reaches V by itself and the joint cruises.
+with the unique c for which v ends at v1. If v would exceed V, the joint goes from either end to V in the
+quickest way and cruises in between.
 
-Nothing rests on these numbers: every set of switches makes valid inequalities (``reach``), the right
-ones make those that cut deepest.
+Every set of switches makes valid inequalities (``reach``); those found here make the deepest cuts.
 """
 
 from __future__ import annotations
@@ -17,15 +17,29 @@ import numpy as np
 
 from formulations.problem.arrays import Array, Truths
 
-_STEPS = 12  # for a cut; a motion that is to end as it should takes more
+_STEPS = 12  # of Newton's method, enough for a cut
 
 
 def farthest(
     v0: Array, W0: Array, v1: Array, W1: Array, V: Array, A: Array, J: Array, steps: int = _STEPS
 ) -> tuple[Array, Truths]:
-    """Switches (m, 6) in [0, 1], ascending, and whether there is a piece at top speed, (m,).
+    """Find the motion that goes farthest.
 
-    All arguments (m,). Where the ends cannot meet in unit time, the nearest c.
+    Parameters
+    ----------
+    v0, W0, v1, W1 : Array, shape (m,)
+        States at both ends.
+    V, A, J : Array, shape (m,)
+        Limits in unit time.
+    steps : int
+        Of Newton's method.
+
+    Returns
+    -------
+    switches : Array, shape (m, 6)
+        Ascending in [0, 1]; of the nearest c where no motion connects the ends in unit time.
+    cruises : Truths, shape (m,)
+        Whether there is a piece at top speed.
     """
     c = _end_speed_met(v1 - v0, W0, W1, A, J, steps)
     s1, s2, s5, s6 = _corners(c, W0, W1, A, J)
@@ -40,7 +54,20 @@ def farthest(
 
 
 def fastest(W0: Array, W1: Array, A: Array, J: Array) -> Array:
-    """Switches (m, 2) of the motion that gains most speed: up with J to A, at A, down with J."""
+    """Find the motion that gains most speed: W rises with J to A, stays there, and falls with J.
+
+    Parameters
+    ----------
+    W0, W1 : Array, shape (m,)
+        At both ends.
+    A, J : Array, shape (m,)
+        Limits in unit time.
+
+    Returns
+    -------
+    Array, shape (m, 2)
+        Switches, ascending in [0, 1].
+    """
     up, down = (A - W0) / J, 1.0 - (A - W1) / J
     middle = 0.5 * (1.0 + (W1 - W0) / J)
     apart = up <= down
@@ -50,7 +77,22 @@ def fastest(W0: Array, W1: Array, A: Array, J: Array) -> Array:
 
 
 def farthest_without_jerk(v0: Array, v1: Array, V: Array, A: Array) -> tuple[Array, Truths]:
-    """The same where the jerk is not limited: accelerate, cruise, brake."""
+    """Find the motion that goes farthest without a jerk limit: accelerate, cruise, brake.
+
+    Parameters
+    ----------
+    v0, v1 : Array, shape (m,)
+        Velocities at both ends.
+    V, A : Array, shape (m,)
+        Limits in unit time.
+
+    Returns
+    -------
+    switches : Array, shape (m, 6)
+        Ascending in [0, 1].
+    cruises : Truths, shape (m,)
+        Whether there is a piece at top speed.
+    """
     up, down = (V - v0) / A, 1.0 - (V - v1) / A
     middle = 0.5 * (1.0 + (v1 - v0) / A)
     cruises = up < down
@@ -61,7 +103,20 @@ def farthest_without_jerk(v0: Array, v1: Array, V: Array, A: Array) -> tuple[Arr
 
 
 def soonest_stop(v0: Array, W0: Array, A: Array, J: Array) -> Array:
-    """Switches (m, 2) of the way to rest: down with J to -A, at -A until v = 0. J infinite: at once."""
+    """Find the soonest stop: W falls with J to -A and stays there until v = 0.
+
+    Parameters
+    ----------
+    v0, W0 : Array, shape (m,)
+        The state to stop from.
+    A, J : Array, shape (m,)
+        Limits in unit time; with an infinite J, W is -A at once.
+
+    Returns
+    -------
+    Array, shape (m, 2)
+        Switches, ascending in [0, 1].
+    """
     speed, plain = np.maximum(v0, 0.0), np.isinf(J)
     J = np.where(plain, 1.0, J)
     stop, at_limit = (W0 + np.sqrt(W0**2 + 2.0 * J * speed)) / J, (W0 + A) / J
@@ -73,7 +128,7 @@ def soonest_stop(v0: Array, W0: Array, A: Array, J: Array) -> Array:
 
 
 def _end_speed_met(gain: Array, W0: Array, W1: Array, A: Array, J: Array, steps: int) -> Array:
-    """The c of (4) that gains as much speed: Newton's method, bisection where it leaves the bracket."""
+    """The c of (4) that gains this much speed: Newton's method, and bisection outside its bracket."""
     low = W0 / J
     high = np.maximum(1.0 + W1 / J, low)
     c = 0.5 * (low + high)
@@ -87,7 +142,7 @@ def _end_speed_met(gain: Array, W0: Array, W1: Array, A: Array, J: Array, steps:
 
 
 def _corners(c: Array, W0: Array, W1: Array, A: Array, J: Array) -> tuple[Array, Array, Array, Array]:
-    """Where (4) changes its piece: at A from s1 to s2, at -A from s5 to s6."""
+    """Breaks of (4): W is A from s1 to s2 and -A from s5 to s6."""
     s1, s2, middle = (A - W0) / J, c - A / J, 0.5 * (c - W0 / J)
     s1, s2 = np.where(s2 < s1, middle, s1), np.where(s2 < s1, middle, s2)
     s5, s6, middle = c + A / J, 1.0 - (A + W1) / J, 0.5 * (c + 1.0 - W1 / J)

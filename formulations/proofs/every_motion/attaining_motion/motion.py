@@ -1,11 +1,11 @@
-"""A motion from durations and states: where the relaxation is tight, the fastest one there is.
+"""The motion between given waypoint states: where the relaxation is tight, the fastest motion of all.
 
-Between the waypoints each joint moves by a mixture of the two motions that go farthest forwards and
-farthest backwards (``switches``) with the least share of its acceleration and jerk limits that does: it
-keeps every limit as both do, and starts and ends in the same states.
+In each segment, each joint moves by a mixture of the two motions that go farthest forwards and farthest
+backwards (``switches``), with the least share of its acceleration and jerk limits that suffices. The
+mixture keeps every limit, as both motions do, and it starts and ends in the same states.
 
-Nothing rests on this: whoever uses the motion has it checked. Position limits are kept at the
-waypoints, by the rows, and mostly between them, as the motion is a gentle one.
+Position limits are kept at the waypoints, by the rows, and mostly between them, since the motion is a
+gentle one.
 """
 
 from __future__ import annotations
@@ -17,46 +17,56 @@ import numpy as np
 from formulations.motion.trajectory import Trajectory
 from formulations.problem.arrays import Array, Truths
 from formulations.problem.problem import Problem
+from formulations.proofs.every_motion.attaining_motion.states import WaypointStates
 from formulations.proofs.every_motion.relaxation.reach import distance_coefficients, speed_coefficients
 from formulations.proofs.every_motion.relaxation.switches import (
     farthest,
     farthest_without_jerk,
     fastest,
 )
-from formulations.proofs.every_motion.states import States
 
-_STEPS = 60  # of Newton's method, to the last digit
-_CLOSE = 1e-12  # breaks, in normalised time
-_BISECTIONS = 20  # for the gentlest share
+_STEPS = 60  # of Newton's method: enough for the last digit
+_CLOSE = 1e-12  # breaks closer than this, in normalised time, are one
+_BISECTIONS = 20  # for the least share of the limits
 
-# jerks in units of its limit between the switches; without one, accelerations
+# between the switches: jerk in units of its limit; acceleration in units of its limit without one
 _JERKS = (1.0, 0.0, -1.0, 0.0, -1.0, 0.0, 1.0)
 _ACCELERATIONS = (0.0, 1.0, 0.0, 0.0, 0.0, -1.0, 0.0)
 
 
-def motion_through(problem: Problem, durations: Array, states: States) -> Trajectory | None:
-    """The motion with durations (K,) [s] of the segments that move; to be checked.
+def connect(problem: Problem, durations: Array, states: WaypointStates) -> Trajectory | None:
+    """Connect waypoint states by a motion, which is still to be checked.
 
-    None if a joint without a limit on acceleration or jerk would jump in its speed, or if the numbers
-    leave the range of floats.
+    Parameters
+    ----------
+    problem : Problem
+    durations : Array, shape (K,) [s]
+        Of the segments that move.
+    states : WaypointStates
+
+    Returns
+    -------
+    Trajectory or None
+        None if a joint moves that has a velocity limit only (its velocity would jump), or if the
+        numbers overflow.
     """
-    task, v, a = states.task, states.velocities, states.accelerations
-    if set(problem.moving_joints) != set(task.joints.tolist()):
+    relaxed, v, a = states.relaxed, states.velocities, states.accelerations
+    if set(problem.moving_joints) != set(relaxed.joints.tolist()):
         return None
     T = durations[:, None]
     ends = _Ends(
         *(v[:-1] * T, a[:-1] * T**2, v[1:] * T, a[1:] * T**2),
-        *(task.velocity * T, task.acceleration * T**2, task.jerk * T**3),
+        *(relaxed.velocity * T, relaxed.acceleration * T**2, relaxed.jerk * T**3),
     )
-    ways = _ways(ends, task.displacements)
+    ways = _ways(ends, relaxed.displacements)
     lengths, pieces, passages = [], [], np.zeros(problem.n_segments + 1)
-    for row, k in enumerate(task.segments):
+    for row, k in enumerate(relaxed.segments):
         breaks, values = _mixed([(switches[row], bends[row]) for switches, bends in ways])
         h = np.diff(breaks)
         coefficients = np.zeros((len(h), problem.dof, 4))
         coefficients[:, :, 0] = problem.waypoints[k]
-        moved = _integrated(h, problem.waypoints[k, task.joints], ends.of(row), values)
-        coefficients[:, task.joints] = moved / durations[row] ** np.arange(4)
+        moved = _integrated(h, problem.waypoints[k, relaxed.joints], ends.of(row), values)
+        coefficients[:, relaxed.joints] = moved / durations[row] ** np.arange(4)
         lengths.append(h * durations[row])
         pieces.append(coefficients)
         passages[k + 1] = lengths[-1].sum()
@@ -68,7 +78,7 @@ def motion_through(problem: Problem, durations: Array, states: States) -> Trajec
 
 @dataclass(frozen=True)
 class _Ends:
-    """All joints in one segment (n,), or in all (K, n), in normalised time; J is 0 where unlimited."""
+    """States and limits of all joints in normalised time, (n,) or (K, n); J is 0 where unlimited."""
 
     v0: Array
     W0: Array
@@ -83,11 +93,11 @@ class _Ends:
         return self.J > 0.0
 
     def of(self, row: int) -> _Ends:
-        """Those of one segment."""
+        """The states and limits of one segment."""
         return _Ends(*(end[row] for end in vars(self).values()))
 
     def farthest(self, sign: float, share: Array) -> tuple[Array, Truths, Array]:
-        """Switches (..., 6), whether it cruises, how far it goes, with a share of A and J."""
+        """Switches (..., 6), whether the joint cruises, and its distance, with a share of A and J."""
         A, J = share * self.A, np.where(self.limited, share * self.J, 1.0)
         ends = (sign * end for end in (self.v0, self.W0, self.v1, self.W1))
         v0, W0, v1, W1, V, A, J = (x.ravel() for x in (*ends, self.V, A, J))
@@ -102,7 +112,7 @@ class _Ends:
         return six.reshape(*shape, 6), cruises.reshape(shape), distance
 
     def can(self, d: Array, share: Array) -> Truths:
-        """Whether a displacement d can be had with a share of A and J."""
+        """Whether a share of A and J suffices for a displacement d."""
         A, J = share * self.A, np.where(self.limited, share * self.J, 1.0)
         can = np.maximum(np.abs(self.W0), np.abs(self.W1)) <= A
         for v, W in ((self.v0, self.W0), (self.v1, self.W1)):
@@ -116,7 +126,7 @@ class _Ends:
         return can
 
     def gentlest(self, d: Array) -> Array:
-        """The least share of A and J with which displacements d can be had."""
+        """The least share of A and J that suffices for displacements d."""
         low, high = np.zeros_like(d), np.ones_like(d)
         for _ in range(_BISECTIONS):
             middle = 0.5 * (low + high)
@@ -130,8 +140,9 @@ def _sum(coefficients: tuple[Array, ...], point: list[Array]) -> Array:
 
 
 def _ways(ends: _Ends, d: Array) -> list[tuple[Array, Array]]:
-    """Farthest forwards, farthest backwards: breaks (K, n, 8), and jerks, or accelerations, between
-    them (K, n, 7), weighted so that the sum of both covers d.
+    """The motions farthest forwards and backwards, weighted so that their sum covers d.
+
+    Each has breaks (K, n, 8) and jerks, or accelerations, between them (K, n, 7).
     """
     share = ends.gentlest(d)
     found, covered = [], []
@@ -152,13 +163,13 @@ def _ways(ends: _Ends, d: Array) -> list[tuple[Array, Array]]:
 
 
 def _mixed(ways: list[tuple[Array, Array]]) -> tuple[Array, Array]:
-    """Breaks (m + 1,) common to all joints of a segment, and the sum of both ways, (m, n)."""
+    """Breaks (m + 1,) common to all joints of a segment, and the sum of both motions, (m, n)."""
     breaks = np.unique(np.concatenate([switches.ravel() for switches, _ in ways]))
     breaks = breaks[np.diff(breaks, prepend=-1.0) > _CLOSE]
     breaks = np.append(breaks[breaks < 1.0 - _CLOSE], 1.0)
     total = np.zeros((len(breaks) - 1, len(ways[0][0])))
     for switches, values in ways:
-        # means, as breaks that are closer than that are one
+        # means between the common breaks, some of which replace several close ones
         sums = np.cumsum(values * np.diff(switches), axis=1)
         for j in range(total.shape[1]):
             total[:, j] += np.diff(np.interp(breaks, switches[j], np.append(0.0, sums[j])))
@@ -166,7 +177,7 @@ def _mixed(ways: list[tuple[Array, Array]]) -> tuple[Array, Array]:
 
 
 def _covered(ends: _Ends, breaks: Array, values: Array) -> Array:
-    """Displacements by jerks, or accelerations, between breaks."""
+    """Displacement (K, n) due to the jerks, or accelerations, between the breaks."""
     x, v, W = np.zeros_like(ends.v0), ends.v0, ends.W0
     for i in range(values.shape[-1]):
         h, value = breaks[..., i + 1] - breaks[..., i], values[..., i]
@@ -177,7 +188,7 @@ def _covered(ends: _Ends, breaks: Array, values: Array) -> Array:
 
 
 def _integrated(h: Array, x: Array, ends: _Ends, values: Array) -> Array:
-    """Coefficients (m, n, 4) of the pieces of lengths h (m,) from x (n,) on."""
+    """Coefficients (m, n, 4) of pieces of durations h (m,) that start at x (n,)."""
     found = np.zeros((*values.shape, 4))
     v, W = ends.v0, ends.W0
     for i, (step, value) in enumerate(zip(h, values, strict=True)):

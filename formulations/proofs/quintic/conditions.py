@@ -1,4 +1,4 @@
-"""Quintic: the conditions of a piece, linear in x but for one power of x_k (see quintic).
+"""Quintic: the conditions of a piece, linear in x except for one power of x_k (see ``bound``).
 
 Derivative ``order`` of piece k at normalised time s, times sign and divided by x_k^(order - 1):
 
@@ -7,8 +7,9 @@ Derivative ``order`` of piece k at normalised time s, times sign and divided by 
 
     A = d_k (P(s) + 1/2 P0(s) + 1/2 P1(s)),  B = 1/2 d_{k-1} P0(s),  E = 1/2 d_{k+1} P1(s)
 
-with integer polynomials P, P0, P1; without the terms of P0 where the joint does not go on in its
-direction at the start of the piece, of P1 at its end. As x > 0, lower bounds of A, B, E are enough.
+with integer polynomials P, P0, P1. The terms of P0 are left out where the joint changes its direction
+(or rests) at the start of the piece, those of P1 where it does so at the end: there the mean rule sets
+the velocity to 0. As x > 0, lower bounds of A, B, E are enough.
 """
 
 from __future__ import annotations
@@ -20,25 +21,30 @@ import numpy as np
 
 from formulations.problem.arrays import Array
 from formulations.proofs.arithmetic.intervals import down, polynomial, times
-from formulations.proofs.domain import Data
+from formulations.proofs.conditions import with_derivatives
+from formulations.proofs.domain import ProblemData
 
-# ascending powers of s; their derivatives (order, part, power)
-_P, _P0, _P1 = [0.0, 0, 0, 10, -15, 6], [0.0, 1, 0, -6, 8, -3], [0.0, 0, 0, -4, 7, -3]
-_DERIVATIVES = np.zeros((6, 3, 6))
-_DERIVATIVES[0] = _P, _P0, _P1
-for _order in range(5):
-    _DERIVATIVES[_order + 1, :, :5] = _DERIVATIVES[_order, :, 1:] * np.arange(1.0, 6.0)
+# P, P0, P1 in ascending powers of s, and their derivatives: (order, part, power)
+_DERIVATIVES = with_derivatives([[0, 0, 0, 10, -15, 6], [0, 1, 0, -6, 8, -3], [0, 0, 0, -4, 7, -3]], 5)
 _PLACES = np.linspace(0.0, 1.0, 33)
 _ON_PLACES = _DERIVATIVES @ _PLACES ** np.arange(6.0)[:, None]  # (order, part, place)
 _COARSE = np.linspace(0.0, 1.0, 9)
 
 
 @dataclass(frozen=True)
-class Rows:
-    """m conditions: joint among the moving ones, segment, order (m,) integers, place, sign (m,) floats.
+class PieceConditions:
+    """m conditions as columns.
 
-    before, own, after: lower bounds of the coefficients of x_{k-1}, x_k, x_{k+1}; limit: 0 for the
-    position, whose room is in ``own``.
+    Attributes
+    ----------
+    joint, segment, order : ndarray of int, shape (m,)
+        The joint among the moving ones, the piece, the order of the derivative.
+    place, sign : Array, shape (m,)
+        Normalised time, and +1 or -1 for the upper or lower limit.
+    before, own, after : Array, shape (m,)
+        Lower bounds of the coefficients of x_{k-1}, x_k, x_{k+1}.
+    limit : Array, shape (m,)
+        The limit; 0 for the position, whose room is in ``own``.
     """
 
     joint: Any
@@ -54,22 +60,46 @@ class Rows:
     def __len__(self) -> int:
         return len(self.joint)
 
-    def __getitem__(self, which: Any) -> Rows:
-        return Rows(*(part[which] for part in vars(self).values()))
+    def __getitem__(self, which: Any) -> PieceConditions:
+        return PieceConditions(*(part[which] for part in vars(self).values()))
 
     @staticmethod
-    def of(parts: list[Rows]) -> Rows:
-        """All rows of several."""
+    def of(parts: list[PieceConditions]) -> PieceConditions:
+        """Join several sets of conditions.
+
+        Parameters
+        ----------
+        parts : list of PieceConditions
+            The sets.
+
+        Returns
+        -------
+        PieceConditions
+            All conditions, in this order.
+        """
         columns = zip(*(vars(part).values() for part in parts), strict=True)
-        return Rows(*(np.concatenate(column) for column in columns))
+        return PieceConditions(*(np.concatenate(column) for column in columns))
 
     @property
     def power(self) -> Any:
-        """The limit stands over x_k to this power, (m,)."""
+        """The power of x_k that divides the limit, shape (m,)."""
         return np.maximum(self.order - 1, 0)
 
     def at(self, x: Array) -> tuple[Array, Array]:
-        """Values of the conditions at x (n+2,), padded, and their slopes (m, n+2); not rounded."""
+        """Evaluate the conditions and their slopes, not rounded.
+
+        Parameters
+        ----------
+        x : Array, shape (n+2,) [1/s]
+            Inverse durations, padded at both ends.
+
+        Returns
+        -------
+        values : Array, shape (m,)
+            Values.
+        slopes : Array, shape (m, n+2)
+            Derivatives with respect to x.
+        """
         slopes, every, own = np.zeros((len(self), len(x))), np.arange(len(self)), x[self.segment + 1]
         slopes[every, self.segment] = self.before
         slopes[every, self.segment + 1] = self.own
@@ -81,9 +111,9 @@ class Rows:
 
 
 class Pieces:
-    """Rows of the pieces of one problem, and where a motion comes closest to its limits."""
+    """The pieces of one problem: their conditions, and where a motion comes closest to its limits."""
 
-    def __init__(self, data: Data) -> None:
+    def __init__(self, data: ProblemData) -> None:
         self.data = data
         self.n, self.dof = data.d.shape
         self._d = np.pad(data.d, ((1, 1), (0, 0)))  # nothing moves before and after
@@ -94,8 +124,27 @@ class Pieces:
         onward = self._d[:-1] * self._d[1:] > 0.0
         self._before, self._after = 0.5 * onward[:-1], 0.5 * onward[1:]
 
-    def rows(self, joint: Any, segment: Any, order: int, place: Array, sign: float) -> Rows:
-        """Conditions at places (m,) of pieces, each of one order and sign."""
+    def conditions(
+        self, joint: Any, segment: Any, order: int, place: Array, sign: float
+    ) -> PieceConditions:
+        """Pose conditions of one order and sign.
+
+        Parameters
+        ----------
+        joint, segment : ndarray of int, shape (m,)
+            The joints among the moving ones, and the pieces.
+        order : int
+            Order of the derivative; 0 for the position.
+        place : Array, shape (m,)
+            Normalised times.
+        sign : float
+            +1 for the upper limit, -1 for the lower.
+
+        Returns
+        -------
+        PieceConditions
+            The conditions, their coefficients rounded down.
+        """
         p, p0, p1 = _DERIVATIVES[order]
         before, after = self._before[segment, joint], self._after[segment, joint]
         own = p + before[:, None] * p0 + after[:, None] * p1  # exact: multiples of 1/2
@@ -110,7 +159,7 @@ class Pieces:
         else:
             room = self.data.room_above if sign > 0.0 else self.data.room_below
             coefficient = down(coefficient - room[segment, joint])
-        return Rows(
+        return PieceConditions(
             joint,
             segment,
             np.full(len(place), order),
@@ -130,19 +179,30 @@ class Pieces:
             limited = np.isfinite(self.data.room_above if sign > 0.0 else self.data.room_below)
         return limited & self._sure & (self.data.d != 0.0)
 
-    def grid(self) -> Rows:
-        """Rows at even places of all pieces."""
+    def grid(self) -> PieceConditions:
+        """Conditions at evenly spaced places of all pieces."""
         parts = []
         for order in range(4):
             for sign in (1.0, -1.0):
                 segment, joint = np.nonzero(self._limited(order, sign))
                 places = np.tile(_COARSE, len(joint))
                 segment, joint = np.repeat(segment, len(_COARSE)), np.repeat(joint, len(_COARSE))
-                parts.append(self.rows(joint, segment, order, places, sign))
-        return Rows.of(parts)
+                parts.append(self.conditions(joint, segment, order, places, sign))
+        return PieceConditions.of(parts)
 
-    def peaks(self, x: Array) -> Rows:
-        """Rows where the motion of x (n+2,), padded, comes closest to each of its limits."""
+    def peaks(self, x: Array) -> PieceConditions:
+        """Pose conditions where one motion comes closest to each of its limits.
+
+        Parameters
+        ----------
+        x : Array, shape (n+2,) [1/s]
+            Inverse durations, padded at both ends.
+
+        Returns
+        -------
+        PieceConditions
+            One condition per piece, joint, order and sign.
+        """
         own = x[1:-1, None]
         before = self._before * (self._d[1:-1] + self._d[:-2] * x[:-2, None] / own)
         after = self._after * (self._d[1:-1] + self._d[2:] * x[2:, None] / own)
@@ -164,5 +224,5 @@ class Pieces:
                     turns = sign * bend < 0.0
                     step = np.divide(slope, bend, out=np.zeros_like(slope), where=turns)
                     place = np.clip(place - np.clip(step, -_PLACES[1], _PLACES[1]), 0.0, 1.0)
-                parts.append(self.rows(joint, segment, order, place, sign))
-        return Rows.of(parts)
+                parts.append(self.conditions(joint, segment, order, place, sign))
+        return PieceConditions.of(parts)

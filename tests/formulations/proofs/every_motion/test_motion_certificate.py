@@ -11,14 +11,14 @@ from typing import Any
 
 import numpy as np
 import pytest
-from test_free_form_bound import (
+from every_motion_helpers import (
     LIMITS,
     exact,
     jerk_limited,
     limited_by,
+    problem_of,
     splined,
     stopping,
-    task_of,
     through_states,
 )
 
@@ -87,7 +87,7 @@ def test_bounds_with_a_jerk_limit_are_certified(problem: Problem, tmp_path: Path
 
 def test_a_proof_is_shown_as_inequalities(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
     """One joint, velocity and acceleration: the time is read off the lines."""
-    bound = recorded(task_of([[0.0], [2.0]], 1.0, 1.0))
+    bound = recorded(problem_of([[0.0], [2.0]], 1.0, 1.0))
     assert outcome(tmp_path, bound.certificate, "--show") == CERTIFIED
     first, *lines = capsys.readouterr().out.splitlines()
     assert first.startswith("certified: no motion of 'problem' takes 2.99999999")
@@ -104,7 +104,7 @@ def test_what_follows_a_proof_is_not_shown(ur5: dict[str, Any], tmp_path: Path) 
 
 def test_a_bound_that_needs_narrower_boxes_is_certified(tmp_path: Path) -> None:
     """Jerk alone matters: one program proves little."""
-    bound = recorded(task_of([[0.0], [0.7], [0.9], [0.1]], 1e6, 1e6, 1.0), gap=1e-6, time_limit=4.0)
+    bound = recorded(problem_of([[0.0], [0.7], [0.9], [0.1]], 1e6, 1e6, 1.0), gap=1e-6, time_limit=4.0)
     assert bound.certificate is not None
     assert {"N", "R", "F"} <= {event[0] for event in bound.certificate["events"]}
     assert outcome(tmp_path, bound.certificate) == CERTIFIED
@@ -117,12 +117,25 @@ def test_a_bound_that_needs_narrower_boxes_is_certified(tmp_path: Path) -> None:
 def test_where_limits_are_missing_nothing_is_lost(seed: int, tmp_path: Path) -> None:
     """A joint with a velocity limit alone is in no row, only in the boxes."""
     rng = np.random.default_rng(seed)
-    problem = task_of(rng.uniform(-2.5, 2.5, (5, 3)), 1.0, [2.0, np.inf, 3.0], [9.0, np.inf, np.inf])
+    problem = problem_of(rng.uniform(-2.5, 2.5, (5, 3)), 1.0, [2.0, np.inf, 3.0], [9.0, np.inf, np.inf])
     bound = recorded(problem, gap=1e-6)
     plain = free_form_bound(problem, gap=1e-6, upper=bound.upper)  # without what writing it down gains
     assert plain.gap is not None
     assert plain.gap < 1e-5
     assert outcome(tmp_path, bound.certificate) == CERTIFIED
+
+
+def test_waypoints_on_their_position_limits_are_certified(tmp_path: Path) -> None:
+    """The checker allows a thousandth more of the position slack, and here that counts."""
+    position = [(-9e-3, 0.0), (-0.038, 5e-3)]
+    problem = problem_of(
+        [[0.0, 0.0], [-6e-5, -0.038], [-9e-3, -0.0315]],
+        [3e-3, 5e-3],
+        [7e-3, 1e-2],
+        [2e-2, 2e2],
+        position=position,
+    )
+    assert outcome(tmp_path, recorded(problem).certificate) == CERTIFIED
 
 
 # --- every row of the checker holds for every motion ----------------------------------------------
@@ -204,7 +217,7 @@ def test_every_row_of_the_checker_holds_for_every_motion(kind: str) -> None:
     rng = np.random.default_rng(5)
     for n in (2, 4):
         steps = rng.normal(size=(n + 1, 3)) * 10.0 ** rng.uniform(-1.0, 0.0, (n + 1, 1))
-        problem = task_of(np.cumsum(steps, axis=0), *LIMITS[kind])
+        problem = problem_of(np.cumsum(steps, axis=0), *LIMITS[kind])
         motions = [stopping(problem), splined(problem, "quintic", rng)]
         if kind in ("jerk", "low jerk"):
             passing = [exact(problem, through_states(problem, rng)) for _ in range(4)]
@@ -217,7 +230,7 @@ def test_every_row_of_the_checker_holds_for_every_motion(kind: str) -> None:
 @pytest.mark.parametrize("kind", ["d", "k", "a", "r"])
 def test_checker_and_prover_pose_the_same_rows(kind: str) -> None:
     """Written twice, by different formulas: the prover's are tight (test_free_form_bound)."""
-    problem = task_of([[0.0], [1.0], [0.3]], 1.3, 2.0, 7.0, position=(-0.5, 2.0))
+    problem = problem_of([[0.0], [1.0], [0.3]], 1.3, 2.0, 7.0, position=(-0.5, 2.0))
     checker = Relaxation(Claim(json.loads(json.dumps(certificate_of(problem, 1.0, [], horizon=9.0)))))
     rng = np.random.default_rng(7)
     for _ in range(20):
@@ -246,7 +259,7 @@ def test_checker_and_prover_pose_the_same_rows(kind: str) -> None:
 
 def test_a_wrong_row_of_the_checker_is_noticed() -> None:
     rng = np.random.default_rng(6)
-    problem = task_of([[0.0], [1.0], [0.3]], 1.0, 2.0)
+    problem = problem_of([[0.0], [1.0], [0.3]], 1.0, 2.0)
     motion = exact(problem, stopping(problem))
     assert violations(limited_by(motion, problem), motion, rng, shrink=0.9) > 0
 
@@ -320,7 +333,7 @@ def test_a_certificate_of_another_problem_is_refused(ur5: dict[str, Any], tmp_pa
 
 
 def test_a_joint_without_any_limit_bounds_nothing() -> None:
-    problem = task_of([[0.0, 0.0], [1.0, 1.0]], 1.0, 1.0)
+    problem = problem_of([[0.0, 0.0], [1.0, 1.0]], 1.0, 1.0)
     data = json.loads(json.dumps(certificate_of(problem, 1.0, [], horizon=2.0)))
     for limits in data["limits"].values():
         limits[1] = [None, None] if isinstance(limits[1], list) else None

@@ -1,6 +1,6 @@
-"""4-3-...-3-4, heuristic: which conditions to pose on a box, and their first-order form.
+"""4-3-...-3-4: which conditions to pose on a box, and their first-order form.
 
-Nothing rests on it.
+This only proposes rows: the proof does not depend on it (``lagrangian`` judges every row).
 """
 
 from __future__ import annotations
@@ -11,28 +11,36 @@ import numpy as np
 
 from formulations.compiled import compiled
 from formulations.families.polynomial import _closed_form_roots
+from formulations.proofs.conditions import (
+    JOINT,
+    JUMP,
+    KIND,
+    ORDER,
+    PIECE,
+    PLACE,
+    SCALE,
+    SEGMENT,
+    SIGN,
+    TOTAL,
+)
 from formulations.proofs.events import copy
-from formulations.proofs.four_three_four.lagrangian import piece_type
-from formulations.proofs.four_three_four.velocities import weights
-from formulations.proofs.rows import JOINT, JUMP, KIND, ORDER, PIECE, PLACE, SCALE, SEGMENT, SIGN, TOTAL
+from formulations.proofs.four_three_four.data import piece_type, side_of
 
 
 @compiled
-def _share_beside(j: int, i: int, side: int, d: Any, c: Any, v: Any, n: int) -> float:
-    """S_i at c: what the segment beside the open one adds to knot i's row (side 0: the one before)."""
-    m = i - 1 + side
-    wr, pr, wl, pl = weights(m, n)
-    w, p = (wl, pl) if side == 0 else (wr, pr)
-    other = i - 1 if side == 0 else i + 1
-    return c[m] * (w * v[j, i] + 2.0 * v[j, other] - p * d[m, j] * c[m])
+def _share_beside(j: int, i: int, side: int, data: Any, reference: Any) -> float:
+    """What the segment beside the open one adds to knot i's equation at c (side 0: the one before)."""
+    m, w, p, other = side_of(i, side, data.n)
+    c, v = reference.c, reference.vc
+    return c[m] * (w * v[j, i] + 2.0 * v[j, other] - p * data.d[m, j] * c[m])
 
 
 @compiled
 def _places(order: int, k: int, n: int, value: Any, is_open: Any, places: Any, work: Any) -> int:
     """Where derivative ``order`` of piece k, the polynomial value, can be extreme; returns the number.
 
-    A knot belongs to one piece, but for the jerk, which jumps, and beside an open piece, whose row is
-    slack.
+    A knot is looked at on one piece only, except for the jerk, which jumps there, and except beside an
+    open piece, whose own row would be slack.
     """
     kind = piece_type(k, n)
     top = (3 if kind == 1 else 4) - order
@@ -44,7 +52,7 @@ def _places(order: int, k: int, n: int, value: Any, is_open: Any, places: Any, w
         places[found] = 1.0
         found += 1
     if top == 4:
-        # from the resting end the slope is 3 a z^2 + 4 b z^3
+        # measured from the end at rest, the slope is 3 a z^2 + 4 b z^3
         if kind == 0:
             a, b = value[3], value[4]
         else:
@@ -61,11 +69,27 @@ def _places(order: int, k: int, n: int, value: Any, is_open: Any, places: Any, w
 
 
 @compiled
-def candidates(rows: Any, d: Any, data: Any, c: Any, is_open: Any, vc: Any, n: int) -> int:
-    """Rows worth posing at x = c, where the velocities are vc: extremes of every limited quantity of
-    every piece, jumps across open segments, and the total. Returns their number.
+def candidates(rows: Any, data: Any, reference: Any) -> int:
+    """Fill in the rows worth posing at the reference: the extremes of every limited quantity of every
+    piece, the jumps across open segments, and the total.
+
+    Parameters
+    ----------
+    rows : ndarray, shape (m, WIDTH)
+        Is filled, but for the multipliers.
+    data : RateData
+        The task.
+    reference : Reference
+        A point of the box.
+
+    Returns
+    -------
+    int
+        Number of rows.
     """
-    limit, room_lo, room_hi, basis = data[2], data[3], data[4], data[5]
+    n, d, limit, basis = data.n, data.d, data.limit, data.basis
+    room_lo, room_hi = data.room_lo, data.room_hi
+    c, is_open, vc = reference.c, reference.is_open, reference.vc
     value, places, work = np.zeros(5), np.zeros(8), np.zeros(5)
     count = 0
     for j in range(d.shape[1]):
@@ -111,7 +135,7 @@ def candidates(rows: Any, d: Any, data: Any, c: Any, is_open: Any, vc: Any, n: i
             y = 0.0
             for side in range(2):
                 if 0 < k + side < n:
-                    y += _share_beside(j, k + side, side, d, c, vc, n)
+                    y += _share_beside(j, k + side, side, data, reference)
             rows[count, KIND], rows[count, JOINT], rows[count, SEGMENT] = JUMP, j, k
             rows[count, ORDER], rows[count, PLACE] = 3, 0.0
             rows[count, SIGN] = 1.0 if y >= 0.0 else -1.0
@@ -124,22 +148,42 @@ def candidates(rows: Any, d: Any, data: Any, c: Any, is_open: Any, vc: Any, n: i
 
 
 @compiled
-def linear(
-    rows: Any, count: int, d: Any, data: Any, n: int, L: float,
-    c: Any, lo: Any, half: Any, is_open: Any, vc: Any, G: Any, R: Any, a: Any, g: Any,
-) -> int:  # fmt: skip
-    """First-order form about c of half-widths half: rows a_i + g_i . e <= 0 for e in [-1, 1]^n.
+def linearise(form: Any, count: int, data: Any, box: Any, reference: Any, velocities: Any) -> int:
+    """Fill in the first-order form of the rows: a_i + g_i . e <= 0 for e in [-1, 1]^n.
 
-    v = vc + G (x - c) to within R. Drops rows that cannot bite on the box; returns how many are left.
+    Rows that no point of the box can violate are dropped.
+
+    Parameters
+    ----------
+    form : RateForm
+        Its rows are read, ``a`` and ``g`` are filled.
+    count : int
+        Number of rows.
+    data : RateData
+        The task.
+    box : Box
+        Of x.
+    reference : Reference
+        A point of the box.
+    velocities : VelocityEnclosure
+        With slopes and remainders about it.
+
+    Returns
+    -------
+    int
+        Number of rows that are left.
     """
-    limit, room_lo, room_hi, basis = data[2], data[3], data[4], data[5]
+    rows, a, g = form.rows, form.a, form.g
+    n, d, limit, basis, lo = data.n, data.d, data.limit, data.basis, box.lo
+    c, half, is_open, vc = reference.c, reference.half, reference.is_open, reference.vc
+    G, R = velocities.slopes, velocities.remainder
     kept = 0
     for r in range(count):
         size = rows[r, SCALE]
         for k in range(n):
             g[kept, k] = 0.0
         if rows[r, KIND] == TOTAL:
-            y = -L
+            y = -data.L
             for k in range(n):
                 if not is_open[k]:
                     y += 1.0 / c[k]
@@ -151,11 +195,8 @@ def linear(
                 i = k + side
                 if not 0 < i < n:
                     continue
-                m = i - 1 + side
-                wr, pr, wl, pl = weights(m, n)
-                w, p = (wl, pl) if side == 0 else (wr, pr)
-                other = i - 1 if side == 0 else i + 1
-                y += sign * _share_beside(j, i, side, d, c, vc, n)
+                m, w, p, other = side_of(i, side, n)
+                y += sign * _share_beside(j, i, side, data, reference)
                 y -= c[m] * (w * R[j, i] + 2.0 * R[j, other])
                 g[kept, m] += sign * (w * vc[j, i] + 2.0 * vc[j, other] - 2.0 * p * d[m, j] * c[m])
                 for q in range(n):
@@ -173,7 +214,7 @@ def linear(
                 if term == 0:
                     w *= d[k, j]
                     if order == 0:
-                        w -= room_hi[k, j] if sign > 0.0 else room_lo[k, j]
+                        w -= data.room_hi[k, j] if sign > 0.0 else data.room_lo[k, j]
                     y += w * c[k]
                     g[kept, k] += w
                 elif 0 < k + term - 1 < n:

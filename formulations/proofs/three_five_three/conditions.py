@@ -1,6 +1,6 @@
-"""3-5-3, heuristic: which conditions to pose on a box, and their first-order form.
+"""3-5-3: which conditions to pose on a box, and their first-order form.
 
-Nothing rests on it.
+This only proposes rows: the proof does not depend on it (``lagrangian`` judges every row).
 """
 
 from __future__ import annotations
@@ -11,7 +11,7 @@ import numpy as np
 
 from formulations.compiled import compiled
 from formulations.families.polynomial import _bracketed_roots, _closed_form_roots
-from formulations.proofs.rows import (
+from formulations.proofs.conditions import (
     FIRST,
     JOINT,
     KIND,
@@ -42,11 +42,25 @@ def _middle(d1: float, d2: float, d3: float, r: float, q: float, work: Any) -> N
 
 
 @compiled
-def candidates(rows: Any, d: Any, limit: Any, c: Any, has: Any, L: float, work: Any) -> int:
-    """Rows worth posing at c = (r, q, T): every extreme of every limited quantity, ends and total.
+def candidates(form: Any, data: Any, work: Any) -> int:
+    """Fill in the rows worth posing at the middle of a box: the extremes of every limited quantity of
+    the middle piece, the least durations of the end pieces, and the total.
 
-    d: (3, dof) displacements; limit as in ``excess``; work: (8, 6). Returns their number.
+    Parameters
+    ----------
+    form : RatioForm
+        Its middle is read, its rows are filled (but for the multipliers).
+    data : RatioData
+        The task.
+    work : ndarray, shape (8, 6)
+        Room for the polynomials and their roots.
+
+    Returns
+    -------
+    int
+        Number of rows.
     """
+    rows, c, d, limit = form.rows, form.c, data.d, data.limit
     n = 0
     for j in range(d.shape[1]):
         _middle(d[0, j], d[1, j], d[2, j], c[0], c[1], work)
@@ -93,32 +107,32 @@ def candidates(rows: Any, d: Any, limit: Any, c: Any, has: Any, L: float, work: 
                 rows[n, ORDER], rows[n, PLACE], rows[n, SIGN], rows[n, SCALE] = order, s, sign, size
                 n += 1
     for x in range(2):
-        if has[x]:
+        if data.has[x]:
             rows[n, KIND], rows[n, SCALE] = FIRST if x == 0 else LAST, c[2]
             n += 1
-    rows[n, KIND], rows[n, SCALE] = TOTAL, L / c[2]
+    rows[n, KIND], rows[n, SCALE] = TOTAL, data.L / c[2]
     return n + 1
 
 
 @compiled
-def linear(
-    rows: Any,
-    n: int,
-    d: Any,
-    data: Any,
-    has: Any,
-    shortest: Any,
-    L: float,
-    c: Any,
-    h: Any,
-    a: Any,
-    g: Any,
-) -> None:
-    """First-order form about c = (r, q, T) of half-widths h: rows a_i + g_i . e <= 0, e in [-1, 1]^3.
+def linearise(form: Any, n: int, data: Any) -> None:
+    """Fill in the first-order form of the rows: a_i + g_i . e <= 0 for e in [-1, 1]^3.
 
-    The part of second order that counts against the row is taken off a_i.
+    a_i is reduced by what the second-order terms can count against the row.
+
+    Parameters
+    ----------
+    form : RatioForm
+        Its box and rows are read, ``a`` and ``g`` are filled.
+    n : int
+        Number of rows.
+    data : RatioData
+        The task.
     """
-    limit, basis = data[2], data[3]
+    c, h, rows, a, g = form.c, form.h, form.rows, form.a, form.g
+    d, limit, basis, has, shortest, L = (
+        data.d, data.limit, data.basis, data.has, data.shortest, data.L
+    )  # fmt: skip
     y = np.empty(5)
     for i in range(n):
         kind, size = rows[i, KIND], rows[i, SCALE]

@@ -1,0 +1,70 @@
+"""Waypoints given as poses of an arm's tool: the keys ``arm``, ``pose``, ``length`` and ``near``."""
+
+from __future__ import annotations
+
+from typing import Any
+
+from formulations.arms import joints_of, load_arm, pose_of
+from formulations.arms.arm import METRES
+from formulations.problem.arrays import Array
+from formulations.problem.errors import InputError
+from formulations.problem.toml_values import known_keys, read_choice, read_matrix, shown
+
+POSED = ("arm", "pose", "length", "near")  # the keys that stand in place of waypoints
+_POSE_KEYS = ("position", "rpy")
+
+
+def waypoints_of_poses(data: dict[str, Any], angle: float) -> tuple[Array, Array]:
+    """Solve the poses of a problem file for joint waypoints.
+
+    Each pose takes the solution nearest to the last waypoint, the first pose the one nearest to ``near``.
+
+    Parameters
+    ----------
+    data : dict
+        The file, as ``tomllib`` reads it.
+    angle : float
+        Radians per unit of angle in the file.
+
+    Returns
+    -------
+    waypoints : Array, shape (n_waypoints, dof)
+        Joint positions [rad].
+    reach : Array, shape (dof, 2)
+        The arm's own joint limits [rad].
+
+    Raises
+    ------
+    InputError
+        For a key or value that cannot be used; OutOfReach for a pose that no joint positions reach.
+    """
+    if "waypoints" in data:
+        raise InputError("waypoints: given beside arm and pose; leave one of them out")
+    if not isinstance(data["arm"], str):
+        raise InputError(f"arm: expected a name, got {shown(data['arm'])}")
+    arm = load_arm(data["arm"])
+    metre = METRES[read_choice("length", data.get("length", "m"), METRES)]
+    near = None
+    if "near" in data:
+        near = read_matrix("near", [data["near"]])[0] * angle
+        if len(near) != arm.dof:
+            raise InputError(f"near: {len(near)} values for {arm.dof} joints")
+    tables = data["pose"]
+    if not isinstance(tables, list) or not tables or not all(isinstance(t, dict) for t in tables):
+        raise InputError(f"pose: expected tables [[pose]], got {shown(tables)}")
+    poses = [_pose(f"pose {index + 1}", table, metre, angle) for index, table in enumerate(tables)]
+    return joints_of(arm, poses, near), arm.position
+
+
+def _pose(where: str, table: dict[str, Any], metre: float, angle: float) -> Array:
+    """Pose (4, 4) of one table."""
+    known_keys(where, table, _POSE_KEYS)
+    vectors = []
+    for key in _POSE_KEYS:
+        if key not in table:
+            raise InputError(f"{where}: {key}: missing")
+        vector = read_matrix(f"{where}: {key}", [table[key]], "row", "value")[0]
+        if len(vector) != 3:
+            raise InputError(f"{where}: {key}: {len(vector)} values where 3 are expected")
+        vectors.append(vector)
+    return pose_of(vectors[0] * metre, vectors[1] * angle)

@@ -1,0 +1,209 @@
+"""Values of a TOML table as numbers, or one line that names the key, the place and the value.
+
+Keys that are not known are refused with the nearest one that is.
+"""
+
+from __future__ import annotations
+
+import difflib
+import math
+from typing import Any
+
+import numpy as np
+
+from formulations.problem.arrays import Array
+from formulations.problem.errors import InputError
+
+UNITS = {"rad": 1.0, "deg": math.pi / 180.0}  # rad per unit
+
+
+def known_keys(kind: str, table: dict[str, Any], known: tuple[str, ...]) -> None:
+    """Refuse keys of a table that are not known.
+
+    Parameters
+    ----------
+    kind : str
+        What the table is, at the start of the message.
+    table : dict
+        As ``tomllib`` reads it.
+    known : tuple of str
+        All keys that may stand there.
+
+    Raises
+    ------
+    InputError
+        Names the key, and the known key that is nearest to it.
+    """
+    for key in table:
+        if key not in known:
+            near = difflib.get_close_matches(key, known, n=1, cutoff=0.5)
+            hint = f"; did you mean {near[0]}?" if near else ""
+            raise InputError(f"{kind}: unknown key {shown(key)}{hint} (known: {', '.join(known)})")
+
+
+def shown(value: Any) -> str:
+    """Show a value as a person would recognise it, cut to one short line.
+
+    Parameters
+    ----------
+    value : object
+        Anything that a TOML file can hold.
+
+    Returns
+    -------
+    str
+    """
+    try:
+        return f"{value!r:.50}"
+    except ValueError:  # a whole number beyond 4300 digits
+        return "a number of thousands of digits"
+
+
+def read_text(key: str, value: Any) -> str:
+    """Read text.
+
+    Parameters
+    ----------
+    key : str
+        Where the value stands, for the message.
+    value : object
+        The value.
+
+    Returns
+    -------
+    str
+
+    Raises
+    ------
+    InputError
+        If the value is something else.
+    """
+    if not isinstance(value, str):
+        raise InputError(f"{key}: expected text, got {shown(value)}")
+    return value
+
+
+def read_choice(key: str, value: Any, choices: Any) -> str:
+    """Read one of several words.
+
+    Parameters
+    ----------
+    key : str
+        Where the value stands, for the message.
+    value : object
+        The value.
+    choices : iterable of str
+        The words that are allowed.
+
+    Returns
+    -------
+    str
+
+    Raises
+    ------
+    InputError
+        If the value is none of them.
+    """
+    if not isinstance(value, str) or value not in choices:
+        raise InputError(f"{key}: {shown(value)} is not one of {', '.join(choices)}")
+    return value
+
+
+def read_number(key: str, value: Any) -> float:
+    """Read a finite number.
+
+    Parameters
+    ----------
+    key : str
+        Where the value stands, for the message.
+    value : object
+        The value.
+
+    Returns
+    -------
+    float
+
+    Raises
+    ------
+    InputError
+        If the value is no number, too large for a float or not finite.
+    """
+    if isinstance(value, bool) or not isinstance(value, (int, float)):
+        raise InputError(f"{key}: expected a number, got {shown(value)}")
+    try:
+        number = float(value)
+    except OverflowError:
+        raise InputError(f"{key}: {shown(value)} is too large") from None
+    if not math.isfinite(number):
+        raise InputError(f"{key}: {number} is not finite (leave the key out if unlimited)")
+    return number
+
+
+def read_limit(key: str, value: Any, dof: int) -> Array:
+    """Read a limit: one number for all joints, or one per joint.
+
+    Parameters
+    ----------
+    key : str
+        Where the value stands, for the message.
+    value : object
+        A number or a list.
+    dof : int
+        Number of joints.
+
+    Returns
+    -------
+    Array, shape (dof,)
+
+    Raises
+    ------
+    InputError
+        If the list has another length, or an entry is no finite number.
+    """
+    if not isinstance(value, list):
+        return np.full(dof, read_number(key, value))
+    if len(value) != dof:
+        raise InputError(f"{key}: {len(value)} values for {dof} joints")
+    return np.array([read_number(f"{key}: joint {j + 1}", entry) for j, entry in enumerate(value)])
+
+
+def read_matrix(key: str, rows: Any, row_name: str = "row", column_name: str = "joint") -> Array:
+    """Read a list of rows of equal length.
+
+    Parameters
+    ----------
+    key : str
+        Where the value stands, for the message.
+    rows : object
+        The value.
+    row_name, column_name : str
+        What rows and columns are called in the message.
+
+    Returns
+    -------
+    Array, shape (n_rows, n_columns)
+
+    Raises
+    ------
+    InputError
+        If rows are missing, empty or unequal, or an entry is no finite number.
+    """
+    if not isinstance(rows, list) or not rows or not all(isinstance(row, list) for row in rows):
+        raise InputError(f"{key}: expected a list of rows, got {shown(rows)}")
+    width = len(rows[0])
+    if width == 0:
+        raise InputError(f"{key}: {row_name} 1 is empty")
+    for index, row in enumerate(rows):
+        if len(row) != width:
+            raise InputError(
+                f"{key}: {row_name} {index + 1} has {len(row)} values, {row_name} 1 has {width}"
+            )
+    return np.array(
+        [
+            [
+                read_number(f"{key}: {row_name} {i + 1}, {column_name} {j + 1}", x)
+                for j, x in enumerate(row)
+            ]
+            for i, row in enumerate(rows)
+        ]
+    )

@@ -1,0 +1,150 @@
+"""The relaxation's bound proved once more, written down for a checker that builds every row itself.
+
+The proof is about all motions of at most H seconds, in boxes that the checker can derive: durations from
+displacement over top speed, accelerations within their limits. Then single boxes are narrowed, each by
+the multipliers of some rows, and the last multipliers prove the bound. Multipliers are for rows in SI
+units:
+
+    ["h", y]                                          (5)      ["s", segment, y]                  (6)
+    ["t", segment, t, y]                              (7)      ["c", segment, t, y]               (8)
+    ["w", joint, segment, end, corner, y]             (9)      ["v", joint, segment, end, sign, c, y]  (10)
+    ["d", joint, segment, sign, s1 .. s6, y]          (1)      ["k", ...] the same without top speed
+    ["a", joint, segment, sign, s1, s2, y]            (2)      ["r", joint, segment, end, sign, s1, s2, y]  (3)
+
+Events: ["N", "T", segment, side, rows] or ["N", "a", waypoint, joint, side, rows] narrows a box from
+below (side 0) or from above (side 1), with effect after the next ["R"]. ["F", rows] ends with the bound,
+["E", rows] with the proof that no motion is left. Segments and joints have the numbers of the problem,
+counted from 0. Segments in which nothing moves do not occur; the waypoint where a segment starts has the
+segment's number.
+"""
+
+from __future__ import annotations
+
+import time
+from typing import Any
+
+import numpy as np
+
+from formulations.problem.arrays import Array
+from formulations.problem.problem import Problem
+from formulations.proofs.every_motion.relaxation.boxes import Boxes
+from formulations.proofs.every_motion.relaxation.cuts import PEAKS, PRODUCTS, STOPS, Cuts, Kind
+from formulations.proofs.every_motion.relaxation.linear_program import LinearProgram, LPSolution
+from formulations.proofs.every_motion.relaxation.relaxed_problem import DOWN, UP, RelaxedProblem
+from formulations.proofs.every_motion.relaxation.rows import Frame
+from formulations.proofs.every_motion.relaxation.tightening import tighten
+
+Event = list[Any]
+_ROUNDS, _TOLERANCE = 100, 1e-9  # of cuts
+_STEPS = 30  # of narrower boxes
+_MARGIN = 1e-10  # of the bound, for the checker's own boxes and rows
+
+
+def bound_with_events(
+    problem: Problem, horizon: float, target: float, cuts: Cuts, typical: Array, deadline: float
+) -> tuple[float, list[Event]]:
+    """Prove a bound and record the proof.
+
+    Parameters
+    ----------
+    problem : Problem
+    horizon : float [s]
+        The time H.
+    target : float [s]
+        The bound to stop at.
+    cuts : Cuts
+        To begin with.
+    typical : Array, shape (n_segments,) [s]
+        Units of the durations.
+    deadline : float
+        Of ``time.perf_counter`` [s].
+
+    Returns
+    -------
+    bound : float [s]
+        0 where nothing was proved.
+    events : list
+    """
+    relaxed = RelaxedProblem.of(problem, horizon)
+    boxes = _first_boxes(relaxed)
+    units = typical[relaxed.segments]
+    narrowing: list[Event] = []
+    best: tuple[float, list[Event]] = (0.0, [])
+    for _ in range(_STEPS):
+        frame = Frame(relaxed, boxes, units)
+        program = LinearProgram(frame, cuts, for_checker=True)
+        solution = program.solve(frame.cost, rounds=_ROUNDS, tolerance=_TOLERANCE, deadline=deadline)
+        if solution.empty:
+            return horizon, [*narrowing, ["E", _rows_of(program, solution.multipliers)]]
+        bound = min(solution.bound, horizon) * (1.0 - _MARGIN)
+        if bound > best[0]:
+            best = bound, [*narrowing, ["F", _rows_of(program, solution.multipliers)]]
+        if best[0] >= target or time.perf_counter() > deadline:
+            break
+
+        def note(column: int, side: int, found: LPSolution, program: LinearProgram = program) -> None:
+            head, unit = _narrowed(program.frame, column)
+            rows = _rows_of(program, found.multipliers * unit)
+            narrowing.append(["E", rows] if found.empty else [*head, side, rows])
+
+        boxes = tighten(program, solution, deadline, note)
+        if boxes.empty:
+            return (horizon, narrowing) if narrowing[-1][0] == "E" else best
+        narrowing.append(["R"])
+        cuts = program.cuts
+    return best
+
+
+def _first_boxes(relaxed: RelaxedProblem) -> Boxes:
+    """From displacement over top speed, from what the others leave, and from the limits."""
+    least = np.maximum(DOWN * relaxed.at_top_speed, relaxed.least)
+    return Boxes.around(relaxed, least, relaxed.horizon * UP - (least.sum() - least))
+
+
+def _narrowed(frame: Frame, column: int) -> tuple[Event, float]:
+    """The head of the event that narrows a variable, and the variable's unit."""
+    relaxed = frame.relaxed
+    if column < frame.K:
+        return ["N", "T", int(relaxed.segments[column])], float(frame.typical[column])
+    waypoint, joint = np.argwhere(frame.a == column)[0].tolist()
+    at = relaxed.segments[waypoint] if waypoint < frame.K else relaxed.segments[-1] + 1
+    return ["N", "a", int(at), int(relaxed.joints[joint])], float(relaxed.acceleration[joint])
+
+
+def _rows_of(program: LinearProgram, multipliers: Array) -> list[Event]:
+    """Rows with their multipliers for SI units."""
+    frame, cuts = program.frame, program.cuts
+    relaxed, unit = frame.relaxed, frame.typical
+    y = np.maximum(multipliers, 0.0) * program.rows.scale  # for the rows before they were scaled
+    rows: list[Event] = []
+    if y[0]:
+        rows.append(["h", _hex(y[0] / relaxed.horizon)])
+    secants = np.flatnonzero(y[1 : frame.K + 1]).tolist()
+    rows += [["s", int(relaxed.segments[k]), _hex(y[k + 1] * unit[k])] for k in secants]
+    of_cuts = y[program.n_fixed :]
+    places = frame.place(cuts) * unit[cuts.segment]
+    for i in np.flatnonzero(of_cuts).tolist():
+        kind, k, j = Kind(int(cuts.kind[i])), int(cuts.segment[i]), int(cuts.joint[i])
+        segment, joint, sign = int(relaxed.segments[k]), int(relaxed.joints[j]), int(cuts.sign[i])
+        at, value = [_hex(x) for x in cuts.at[i]], float(of_cuts[i])
+        by_speed = _hex(value / float(relaxed.velocity[j]))
+        if kind == Kind.TANGENT:
+            rows.append(["t", segment, _hex(places[i]), _hex(value * unit[k])])
+        elif kind == Kind.HULL:
+            rows.append(["c", segment, _hex(places[i]), _hex(value / unit[k] ** 2)])
+        elif kind in PRODUCTS:
+            by_both = _hex(value / (unit[k] * float(relaxed.acceleration[j])))
+            rows.append(["w", joint, segment, kind.end, int(cuts.at[i, 0]), by_both])
+        elif kind in PEAKS:
+            rows.append(["v", joint, segment, kind.end, sign, at[0], by_speed])
+        elif kind in STOPS:
+            rows.append(["r", joint, segment, kind.end, sign, *at[:2], by_speed])
+        elif kind == Kind.SPEED:
+            rows.append(["a", joint, segment, sign, *at[:2], by_speed])
+        else:
+            rows.append(["d" if kind == Kind.CRUISE else "k", joint, segment, sign, *at, by_speed])
+    return rows
+
+
+def _hex(x: float) -> str:
+    return float(x).hex()

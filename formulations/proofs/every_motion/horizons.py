@@ -1,0 +1,326 @@
+"""The search for the bound: closed forms, the relaxation, a motion that meets it, narrower boxes.
+
+The boxes hold all motions of at most H seconds, for any horizon H. So min(optimum of the relaxation, H)
+is a lower bound, and H need not be the time of a motion. The first horizon is the time of the fastest
+motion known. If the bound is far below it, the next horizon lies a little above the bound: the boxes are
+then narrower and the relaxation is tighter.
+"""
+
+from __future__ import annotations
+
+import time
+from collections.abc import Callable
+from enum import StrEnum
+from typing import Any, NamedTuple
+
+import numpy as np
+
+from formulations.motion.trajectory import Trajectory
+from formulations.motion.verdict import check
+from formulations.problem.arrays import Array
+from formulations.problem.problem import Problem
+from formulations.proofs.displacement import displacement_bound
+from formulations.proofs.every_motion.attaining_motion.durations import descend
+from formulations.proofs.every_motion.attaining_motion.motion import connect
+from formulations.proofs.every_motion.attaining_motion.states import find_states
+from formulations.proofs.every_motion.closed_forms import least_durations, stop_and_go_durations
+from formulations.proofs.every_motion.events import bound_with_events
+from formulations.proofs.every_motion.prices import price_limits
+from formulations.proofs.every_motion.relaxation.boxes import Boxes
+from formulations.proofs.every_motion.relaxation.cuts import Cuts, Kind
+from formulations.proofs.every_motion.relaxation.linear_program import (
+    LinearProgram,
+    LPSolution,
+    LPStatus,
+)
+from formulations.proofs.every_motion.relaxation.relaxed_problem import RelaxedProblem
+from formulations.proofs.every_motion.relaxation.rows import Frame
+from formulations.proofs.every_motion.relaxation.tightening import tighten
+from formulations.proofs.rest_to_rest import end_to_end_bound
+
+_BEYOND = 1e-6  # the horizon is longer than the known motion by this, so that the motion is inside
+_AHEAD = 0.1  # of the bound: how far above it a horizon is at most
+_ROUNDS = 100  # of cuts
+_TANGENTS = 4  # for each duration to begin with
+_LOOSER = 1e-2  # durations to begin with are looser, so that rows and not boxes carry the bound
+_STRETCHES = (2e-7, 1e-6, 1e-5, 1e-4, 1e-3, 1e-2)  # of durations, tried for a motion
+_NEAR = 1e-2  # of the bound: how far above it the horizon of its certificate is at most
+_STALLED = 0.05  # of the way to the horizon: a step that gains less is no progress
+
+
+class BoundStatus(StrEnum):
+    """How the search for a bound ended."""
+
+    PROVED = "proved"  # the gap asked for
+    TIGHT = "tight as it gets"  # narrower boxes would prove no more
+    TIME_LIMIT = "time limit"
+    SIMPLE = "simple bounds only"  # the relaxation does not apply
+    SOLVER_FAILED = "solver failed"
+
+
+class Ending(NamedTuple):
+    """A status and, where it needs one, its reason."""
+
+    status: BoundStatus
+    reason: str = ""
+
+
+class HorizonSearch:
+    """The search for one problem's bound, horizon after horizon.
+
+    Attributes
+    ----------
+    bounds : dict of str to float [s]
+        The bound by each method.
+    upper : float or None [s]
+        Time of the fastest motion known.
+    motion : Trajectory or None
+        That motion, if it was found here.
+    durations : Array or None, shape (n_segments,) [s]
+        Durations at the relaxation's optimum.
+    savings : Array or None, shape (3, n_segments, dof) [s]
+        See ``price_limits``.
+    rows : int
+        Number of rows of the last program.
+    """
+
+    def __init__(
+        self,
+        problem: Problem,
+        upper: float | None,
+        progress: Callable[[float, float | None], None] | None,
+    ) -> None:
+        """Compute the bounds in closed form.
+
+        Parameters
+        ----------
+        problem : Problem
+        upper : float or None [s]
+            Time of a verified motion, if one is known.
+        progress : callable or None
+            Called as ``progress(bound, upper)`` whenever the relaxation proved a bound.
+        """
+        self.problem, self.upper, self.progress = problem, upper, progress
+        self.bounds = {
+            "displacement": displacement_bound(problem),
+            "ruckig_end_to_end": end_to_end_bound(problem),
+            "segment": float(least_durations(problem).sum()) * (1.0 - 1e-15 * problem.n_segments),
+        }
+        self.stop_and_go = stop_and_go_durations(problem)
+        self.typical = self.stop_and_go.copy()
+        self.cuts = Cuts.none()
+        self.looking = upper is None  # whether the search for a motion is worth its time
+        self.attained = np.inf  # by a motion that may leave the position limits [s]
+        self.motion: Trajectory | None = None
+        self.durations: Array | None = None
+        self.savings: Array | None = None
+        self.rows = 0
+
+    @property
+    def seconds(self) -> float:
+        """The best bound so far [s]."""
+        return max(self.bounds.values())
+
+    @property
+    def known(self) -> float:
+        """Time of the fastest motion known [s], at most that of stop and go."""
+        slowest = float(self.stop_and_go.sum())
+        return slowest if self.upper is None else min(self.upper, slowest)
+
+    def run(self, gap: float, deadline: float) -> Ending:
+        """Search until the gap is reached, the time is over, or nothing proves more.
+
+        Parameters
+        ----------
+        gap : float
+            Relative gap to the known motion.
+        deadline : float
+            Of ``time.perf_counter`` [s].
+
+        Returns
+        -------
+        Ending
+        """
+        if not self.problem.moving_joints:
+            self.upper = 0.0
+            return Ending(BoundStatus.PROVED)
+        if not self.seconds > 0.0:
+            return Ending(BoundStatus.SIMPLE, "the displacements are too small for floats")
+        if not len(RelaxedProblem.of(self.problem, self.known).joints):
+            return Ending(
+                BoundStatus.SIMPLE, "with a velocity limit alone, displacement is the infimum itself"
+            )
+        with np.errstate(over="ignore", divide="ignore", invalid="ignore"):
+            return self._approach(gap, deadline)
+
+    def _approach(self, gap: float, deadline: float) -> Ending:
+        """Try horizon after horizon: a longer one when none of its motions is left, else a shorter one."""
+        ahead, boxes = np.inf, None
+        while True:
+            horizon = min(self.known * (1.0 + _BEYOND), self.seconds * (1.0 + ahead))
+            ending, boxes = self._within(horizon, boxes, gap, deadline)
+            if ending is not None:
+                return ending
+            if horizon > self.seconds * (1.0 + _AHEAD):
+                ahead = _AHEAD
+                continue
+            if self.seconds >= horizon:
+                boxes = None
+                if horizon >= self.known:
+                    return Ending(BoundStatus.TIGHT)
+                continue
+            ahead = min(ahead, horizon / self.seconds - 1.0) / 3.0
+            if ahead < gap:
+                return Ending(BoundStatus.TIGHT)
+
+    def _within(
+        self, horizon: float, boxes: Boxes | None, gap: float, deadline: float
+    ) -> tuple[Ending | None, Boxes]:
+        """Bound all motions of at most ``horizon`` seconds, in narrower and narrower boxes."""
+        relaxed = RelaxedProblem.of(self.problem, horizon)
+        boxes = self._boxes(relaxed, boxes)
+        typical = self.typical[relaxed.segments]
+        tolerance = min(max(1e-3 * gap, 1e-9), 1e-7)
+        stalled = False
+        while not boxes.empty:
+            frame = Frame(relaxed, boxes, typical)
+            program = LinearProgram(frame, Cuts.joined([_tangents(boxes.durations), self.cuts]))
+            solution = program.solve(frame.cost, rounds=_ROUNDS, tolerance=tolerance, deadline=deadline)
+            before = self.seconds
+            if solution.empty:
+                break
+            self._keep(program, solution)
+            if solution.status == LPStatus.TIME_LIMIT:
+                return Ending(BoundStatus.TIME_LIMIT), boxes
+            if solution.status != LPStatus.OPTIMAL:
+                return Ending(
+                    BoundStatus.SOLVER_FAILED, f"HiGHS ended with {solution.reason.lower()}"
+                ), boxes
+            typical = solution.x[frame.T] * typical
+            self.typical[relaxed.segments], self.cuts = typical, program.cuts
+            self._look_for_motion(typical, program.cuts, gap, deadline)
+            if self._met(gap):
+                return Ending(BoundStatus.PROVED), boxes
+            if self._tight(gap):
+                return Ending(BoundStatus.TIGHT), boxes
+            if time.perf_counter() > deadline:
+                return Ending(BoundStatus.TIME_LIMIT), boxes
+            if self.seconds >= horizon:
+                break
+            if horizon > self.seconds * (1.0 + _AHEAD):
+                return None, boxes
+            if stalled and self.seconds - before < _STALLED * (horizon - before):
+                return None, boxes
+            narrower = tighten(program, solution, deadline)
+            self.cuts = program.cuts
+            stalled = narrower.width > (1.0 - _STALLED) * boxes.width
+            boxes = narrower
+        self._improve(horizon)
+        return (Ending(BoundStatus.PROVED) if self._met(gap) else None), boxes
+
+    def _boxes(self, relaxed: RelaxedProblem, boxes: Boxes | None) -> Boxes:
+        """The first boxes for a horizon: from those of a longer one, if there are any."""
+        most = relaxed.acceleration[:, None]
+        if boxes is None:
+            least = np.maximum(least_durations(self.problem)[relaxed.segments], relaxed.at_top_speed)
+            least = np.maximum(least * (1.0 - _LOOSER), relaxed.least)
+            boxes = Boxes.around(relaxed, least, np.full_like(least, np.inf))
+        durations = boxes.durations.copy()
+        # no duration is longer than what the least durations of the others leave
+        others = durations[:, 0].sum() - durations[:, 0]
+        durations[:, 1] = np.minimum(durations[:, 1], relaxed.horizon * (1.0 + 1e-12) - others)
+        empty = bool((durations[:, 0] > durations[:, 1]).any())
+        return Boxes(durations, np.clip(boxes.accelerations, -most, most), empty)
+
+    def certify(self, deadline: float) -> tuple[float, float, list[list[Any]]]:
+        """Prove a bound near the best one again, so that a checker can follow it.
+
+        Parameters
+        ----------
+        deadline : float
+            Of ``time.perf_counter`` [s].
+
+        Returns
+        -------
+        bound : float [s]
+        horizon : float [s]
+            Of the proof.
+        events : list
+            As ``events`` describes them; none where the displacement bound is the proof.
+        """
+        least = self.bounds["displacement"] * (1.0 - 1e-12)
+        horizon = min(self.known * (1.0 + _BEYOND), self.seconds * (1.0 + _NEAR))
+        joints = RelaxedProblem.of(self.problem, horizon).joints
+        if not len(joints) or not self.seconds > least * (1.0 + 1e-9):
+            return least, least, []
+        with np.errstate(over="ignore", divide="ignore", invalid="ignore"):
+            bound, events = bound_with_events(
+                self.problem, horizon, self.seconds * (1.0 - 1e-8), self.cuts, self.typical, deadline
+            )
+        if not bound > least:
+            return least, least, []
+        self._improve(bound)  # a near horizon may prove more
+        return bound, horizon, events
+
+    def _met(self, gap: float) -> bool:
+        return self.upper is not None and self.upper <= self.seconds * (1.0 + gap)
+
+    def _improve(self, bound: float) -> None:
+        self.bounds["relaxation"] = max(self.bounds.get("relaxation", 0.0), bound)
+        if self.progress is not None:
+            self.progress(self.seconds, self.upper)
+
+    def _keep(self, program: LinearProgram, solution: LPSolution) -> None:
+        """Keep the bound of a solve and, if it is the best one, its durations and savings."""
+        relaxed, problem = program.frame.relaxed, self.problem
+        bound = min(solution.bound, relaxed.horizon)
+        self.rows = len(program.rows)
+        if bound > self.bounds.get("relaxation", 0.0):
+            self.durations = np.zeros(problem.n_segments)
+            self.durations[relaxed.segments] = solution.x[program.frame.T] * program.frame.typical
+            self.savings = np.zeros((3, problem.n_segments, problem.dof))
+            self.savings[:, relaxed.segments[:, None], relaxed.joints] = price_limits(
+                problem, program, solution
+            )
+        self._improve(bound)
+
+    def _look_for_motion(self, durations: Array, cuts: Cuts, gap: float, deadline: float) -> None:
+        """Try for a motion with the relaxation's durations, slightly stretched; then with durations nearby."""
+        for local in (False, True):
+            if local:
+                if not self.looking:
+                    return
+                durations, cuts = descend(self.problem, durations, cuts, deadline)
+            for stretch in _STRETCHES[: 4 if self.looking and not local else None]:
+                if self._met(gap) or self._tight(gap):
+                    return
+                if self._try(durations * (1.0 + stretch), cuts, deadline):
+                    self.looking = False
+                    return
+
+    def _try(self, durations: Array, cuts: Cuts, deadline: float) -> bool:
+        """Whether a longer stretch is pointless; a motion that passes the check and is fastest is kept."""
+        total = float(durations.sum())
+        if self.upper is not None and total >= self.upper:
+            return True
+        states = find_states(self.problem, durations, cuts, deadline)
+        if states is None:
+            return False
+        self.attained = min(self.attained, total)
+        motion = connect(self.problem, durations, states)
+        if motion is None:
+            return False
+        verdict = check(self.problem, motion)
+        if verdict.feasible:
+            self.motion, self.upper = motion, verdict.seconds
+        return verdict.feasible or not verdict.position_kept  # no stretch changes the positions
+
+    def _tight(self, gap: float) -> bool:
+        """Whether a motion, perhaps outside the position limits, shows that the relaxation proves no more."""
+        return self.attained <= self.seconds * (1.0 + gap)
+
+
+def _tangents(durations: Array) -> Cuts:
+    """Tangents of 1 / T at durations that are even in the logarithm of T."""
+    at = np.geomspace(durations[:, 0], durations[:, 1], _TANGENTS)
+    return Cuts.of(Kind.TANGENT, np.tile(np.arange(len(durations)), _TANGENTS), at.ravel())
