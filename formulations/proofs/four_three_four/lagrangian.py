@@ -211,8 +211,8 @@ def _add_knots(
                 rest_lo[other], rest_hi[other] = add(rest_lo[other], rest_hi[other], a_lo, a_hi)
     _add_bilinear(j, data, box, velocities, sums)
     for i in range(1, n):  # the v-terms at x = c: nearly zero by the choice of mu
-        lo, hi = multiply(rest_lo[i], rest_hi[i], velocities.lo[j, i], velocities.hi[j, i])
-        const = down(const + lo)
+        least = multiply(rest_lo[i], rest_hi[i], velocities.lo[j, i], velocities.hi[j, i])[0]
+        const = down(const + least)
     return const
 
 
