@@ -10,7 +10,9 @@ from formulations.problem.arrays import Array, Indices, Truths
 from formulations.problem.problem import Problem
 
 UP, DOWN = 1.0 + 2.0**-50, 1.0 - 2.0**-50  # cover the rounding of two operations
-_WIDER = 1.001  # position slack that is proved, per slack allowed: covers rounding, and checkers ask for it
+_WIDER = (
+    1.001  # position slack that is proved, per slack allowed: covers rounding, and checkers ask for it
+)
 
 
 @dataclass(frozen=True)
