@@ -91,19 +91,19 @@ def test_numbers_that_doubles_cannot_hold_are_named() -> None:
 
 def test_short_phases_in_a_long_motion_are_no_reason_to_give_up() -> None:
     """The grid of breaks is 1e-6 of a phase: each slower motion is rounded anew."""
-    problem = Problem.of(
-        [
-            [-0.0591553, -1.26046, 1.02389529],
-            [-0.05916, -1.29527, 1.0238953],
-            [-73.54, -1.27322, 1.0243],
-        ],
-        Limits.of(
-            [0.0218661, 22.0, 23418.0],
-            [5.5949e-3, 1.26666e-4, 1.12878e-5],
-            [17814.6, 5.34e-6, 2078.2],
-            dof=3,
-        ),
+    points = [
+        [-5.9155308940065154e-02, -1.2604568155601283e00, 1.0238952875311167e00],
+        [-5.9159964784163757e-02, -1.2952656503592512e00, 1.0238953031389866e00],
+        [-7.3541787967100461e01, -1.2732200764792660e00, 1.0243028045189473e00],
+    ]
+    limits = Limits.of(
+        [2.1866064757895320e-02, 2.2086062700064687e01, 2.3418757853742678e04],
+        [5.5948742136050830e-03, 1.2666604439937751e-04, 1.1287769209959506e-05],
+        [1.7814588460511728e04, 5.3409372187009148e-06, 2.0781629397644274e03],
+        [(-4.6e10, points[0][0]), (points[1][1], points[0][1]), (points[0][2], 1.04)],
+        dof=3,
     )
+    problem = Problem.of(points, limits)
     found = free_form(problem)
     assert found.verdict is not None
     assert found.verdict.feasible
