@@ -1,9 +1,8 @@
-"""What holds the time up: which joint's which limit, on which segment, and what more of it would save.
+"""Diagnosis: which limit of which joint holds the motion up on which segment, and what raising it saves.
 
-The multipliers of the free-form program say by how much each limit delays the motion; as slowing down
-by 1 + e is the same as lowering velocity limits by e, acceleration limits by 2 e and jerk limits by
-3 e, they share out the whole time (``free_form.sensitivity``). What more of a limit saves is not taken
-from them: the motion is planned again under the raised limit, and checked.
+The multipliers of the free-form program say how much each limit delays the motion, and these shares add
+up to the whole time (``optima.free_form.sensitivity``). What a raised limit saves is not estimated from
+them: the motion is planned again under the raised limit, and checked.
 """
 
 from __future__ import annotations
@@ -17,12 +16,23 @@ from formulations.optima.free_form import FreeForm, free_form
 from formulations.problem.arrays import Array
 from formulations.problem.problem import Limits, Problem
 
-_LEAST = 1e-3  # of the time: holds shorter than this are not worth a line
+_LEAST = 1e-3  # of the time: shorter holds are not shown
 
 
 @dataclass(frozen=True)
 class Hold:
-    """A limit holds a segment for ``seconds`` of the total time. Joint and segment count from 0."""
+    """The share of one limit on one segment in the total time.
+
+    Attributes
+    ----------
+    joint : int
+        From 0.
+    quantity : str
+        "velocity", "acceleration" or "jerk".
+    segment : int
+        From 0.
+    seconds : float [s]
+    """
 
     joint: int
     quantity: str
@@ -32,7 +42,19 @@ class Hold:
 
 @dataclass(frozen=True)
 class Saving:
-    """Planned again with ``more`` of one limit, the motion takes ``seconds`` [s] less."""
+    """What the motion saves when it is planned again with one limit raised.
+
+    Attributes
+    ----------
+    joint : int
+        From 0.
+    quantity : str
+        "velocity", "acceleration" or "jerk".
+    more : float
+        By how much the limit is raised, relative.
+    seconds : float [s]
+        By how much the motion is faster.
+    """
 
     joint: int
     quantity: str
@@ -42,9 +64,18 @@ class Saving:
 
 @dataclass(frozen=True)
 class Diagnosis:
-    """What holds up a motion of ``seconds`` [s]: holds and savings, largest first.
+    """What holds a motion up.
 
-    unexplained: what is not shared out [s], as the motion is only nearly a local optimum.
+    Attributes
+    ----------
+    seconds : float [s]
+        Total time of the motion.
+    holds : tuple of Hold
+        Largest first, those shorter than 1e-3 of the time left out.
+    savings : tuple of Saving
+        Largest first.
+    unexplained : float [s]
+        Time minus all shares; small but not 0, since the motion is a local optimum only nearly.
     """
 
     seconds: float
@@ -53,7 +84,7 @@ class Diagnosis:
     unexplained: float
 
     def lines(self) -> list[str]:
-        """One sentence per hold; the savings of its limit behind the first one."""
+        """Write one sentence per hold; the first of each limit also says what raising it saves."""
         saved = {(s.joint, s.quantity): s for s in self.savings}
         text = []
         for hold in self.holds:
@@ -69,7 +100,46 @@ class Diagnosis:
 
 
 def diagnose(problem: Problem, found: FreeForm, *, more: float = 0.1, top: int = 4) -> Diagnosis:
-    """Share out the time of a free-form motion, and plan again with ``more`` of the ``top`` limits."""
+    """Share out the time of a free-form motion among the limits, and plan again with raised ones.
+
+    Parameters
+    ----------
+    problem : Problem
+    found : FreeForm
+        The motion of this problem, without conditions.
+    more : float, default 0.1
+        By how much a limit is raised, relative.
+    top : int, default 4
+        Number of limits to raise, one at a time, those with the largest shares first.
+
+    Returns
+    -------
+    Diagnosis
+
+    Raises
+    ------
+    InputError
+        If a raised limit is not a valid limit.
+
+    See Also
+    --------
+    free_form : the motion, whose ``sensitivity`` has the shares.
+
+    Notes
+    -----
+    A motion slowed down by 1 + e keeps velocity limits that are lower by e, acceleration limits by 2 e and
+    jerk limits by 3 e, to first order. So the derivatives of the time by the logarithms of the limits,
+    times 1, 2 and 3, add up to the time (Euler's identity for homogeneous functions).
+
+    Examples
+    --------
+    >>> from formulations import Limits, Problem, free_form
+    >>> from formulations.diagnosis import diagnose
+    >>> problem = Problem.of([[0.0], [1.0]], Limits.of(velocity=100.0, acceleration=4.0, dof=1))
+    >>> for line in diagnose(problem, free_form(problem, tolerance=1e-6), more=0.21).lines():
+    ...     print(line)
+    joint 1's acceleration holds segment 1 for 1 of 1 s; 21 % more of it would save 0.0909 s
+    """
     held = _held(problem, found)
     holds = [
         Hold(int(j), QUANTITIES[o + 1], int(k), float(held[o, k, j]))
@@ -88,12 +158,12 @@ def diagnose(problem: Problem, found: FreeForm, *, more: float = 0.1, top: int =
 
 
 def _held(problem: Problem, found: FreeForm) -> Array:
-    """Seconds held by each limit, (3, n_segments, dof)."""
+    """Seconds that each limit holds, (3, n_segments, dof)."""
     if found.sensitivity is not None:
         return found.sensitivity.held
     held = np.zeros((3, problem.n_segments, problem.dof))
     if not problem.limits.has_acceleration and not problem.limits.has_jerk:
-        # with velocity limits alone the slowest joint holds all of a segment
+        # with velocity limits only, the slowest joint holds a whole segment
         share = np.abs(problem.displacements) / problem.limits.velocity
         rows = np.arange(problem.n_segments)
         held[0, rows, share.argmax(axis=1)] = share.max(axis=1)

@@ -1,13 +1,17 @@
-"""The fastest motion through waypoints, over all motions with bounded velocity, acceleration and jerk.
+"""The fastest motion through waypoints, of all with bounded velocity, acceleration and jerk.
 
-Task -> stop and go -> program on even steps -> Ruckig between its waypoint states -> program on arcs ->
-trajectory -> independent check; see ``search`` for the order and ``equations`` for the program.
+fastest           ``free_form``, which others call, and its answer
+mesh_refinement   the search: programs on finer and finer meshes, each motion judged by the check
+stop_and_go       the motion that is always there, in closed form
+retiming          each segment's least time between waypoint states, by Ruckig
+sensitivity       what each limit costs, from the multipliers
+nlp/              the nonlinear program: ``nlp.equations`` has it in one page
 """
 
 from __future__ import annotations
 
 from formulations.optima.free_form.fastest import FreeForm, free_form
-from formulations.optima.free_form.search import Stage
+from formulations.optima.free_form.mesh_refinement import Stage
 from formulations.optima.free_form.sensitivity import Sensitivity
 
 __all__ = ["FreeForm", "Sensitivity", "Stage", "free_form"]

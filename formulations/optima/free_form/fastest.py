@@ -12,9 +12,9 @@ import numpy as np
 
 from formulations.motion.trajectory import Trajectory
 from formulations.motion.verdict import Verdict, check
+from formulations.optima.free_form.mesh_refinement import MeshRefinement, Stage, VerifiedMotion
 from formulations.optima.free_form.nlp.assembly import RAMP
-from formulations.optima.free_form.nlp.task import Task
-from formulations.optima.free_form.search import Found, Search, Stage
+from formulations.optima.free_form.nlp.conditioned import ConditionedProblem
 from formulations.optima.free_form.sensitivity import Sensitivity
 from formulations.problem.arrays import Array
 from formulations.problem.conditions import Conditions
@@ -30,10 +30,30 @@ _LEAST_ARCS, _MOST_ARCS = 3, 100
 class FreeForm:
     """The best motion found, judged by the independent check.
 
-    durations: (n_segments,) [s]. trajectory, verdict: None where nothing moves and nothing takes time.
-    method: the stage that found it. status: ``ok``, or how the local solver ended otherwise; the motion
-    keeps everything asked for in either case. sensitivity: None where no program was solved to within
-    1e-3 of the motion, or where the time is fixed. stages: all that was tried, in order. runtime: [s].
+    Attributes
+    ----------
+    problem : Problem
+    conditions : Conditions
+        Those asked for, or empty ones.
+    durations : Array, shape (n_segments,) [s]
+        Time between consecutive waypoints.
+    trajectory : Trajectory or None
+        The motion as polynomial pieces; None where nothing moves and nothing takes time.
+    verdict : Verdict or None
+        What the independent check says of it: it keeps all that was asked for.
+    method : str
+        Name of the stage that found it.
+    status : str
+        "ok" if the last local solve converged, else how the solver says it ended.
+    notes : tuple of str
+        What a user should know about the answer.
+    sensitivity : Sensitivity or None
+        What each limit costs; None where the time is fixed, or where no program was solved to within
+        1e-3 of the motion.
+    stages : tuple of Stage
+        All that was tried, in order.
+    runtime : float [s]
+        Time of the computation on this machine.
     """
 
     problem: Problem
@@ -63,20 +83,93 @@ def free_form(
     solver: Solver = "ipopt",
     progress: Callable[[str, float], None] | None = None,
 ) -> FreeForm:
-    """The fastest motion found among all with bounded velocity, acceleration and jerk.
+    """Find the fastest motion through the waypoints, of all with bounded velocity, acceleration and jerk.
 
-    mesh: arcs per segment and joint to begin with; Ruckig's profiles have seven, and few optima need
-    more. tolerance: of the total time, relative; below 1e-3 the mesh is refined until a finer one gains
-    less than a tenth of it, and below 1e-4 the best is solved to the last digits. It is an aim, not a
-    proof: see ``free_form_bound``. solver: ``ipopt``, or ``highs`` for sequential linear programs.
-    progress: called with each stage and its time [s], infinite if the check refused its motion.
+    The motion passes all waypoints in order, from rest to rest unless the conditions say otherwise, and
+    the passage times are free. It belongs to no spline family. The search starts from stop and go in
+    closed form [1]_. It then solves a nonlinear program on even time steps with IPOPT [2]_, retimes the
+    segments between the waypoint states of the solution with Ruckig [3]_, and from there solves a
+    program in which every joint crosses every segment on arcs of constant jerk with durations of their
+    own. Such arcs can represent the optimum exactly.
 
-    With ``conditions.total`` the smoothest motion that takes this time: least integral over time of the
-    sum over joints of (jerk / limit)^2 (without a jerk limit: acceleration), on even steps of constant
-    jerk. With velocity limits alone no motion attains the infimum: the one given is within 3e-6 of it.
+    The returned motion is verified: an independent check, which computes exact extremes of all
+    polynomials, confirms its waypoints, limits and conditions. So its time is an upper bound on the
+    least time. It is the best local optimum found and no proof of optimality; ``free_form_bound`` proves
+    a lower bound for the same problem, often equal to six digits.
 
-    Without conditions there is always an answer, never slower than stop and go. Raises InputError for
-    conditions that do not fit the problem, NoFeasibleMotion where none was found that keeps them.
+    With ``conditions.total`` the motion takes this time, and it is the smoothest one on even steps of
+    constant jerk: it minimises the integral over time of the sum over joints of (jerk / limit)^2, or of
+    (acceleration / limit)^2 for joints without a jerk limit.
+
+    Parameters
+    ----------
+    problem : Problem
+        Waypoints, shape (n_waypoints, dof) [rad], and limits per joint.
+    conditions : Conditions, optional
+        Passage times, total time, stops, end velocities, limits of single segments.
+    mesh : int, default 7
+        Arcs per segment and joint to begin with, 3 to 100. The profiles of Ruckig have seven, and few
+        optima need more.
+    tolerance : float, default 1e-3
+        Relative tolerance of the total time. Below 1e-3 the mesh is refined until a finer one gains less
+        than a tenth of the tolerance; below 1e-4 the best solution is also solved to the last digits.
+        It is an aim and not a proof.
+    solver : {"ipopt", "highs"}, default "ipopt"
+        "highs" solves the programs by sequential linear programming, without IPOPT.
+    progress : callable, optional
+        Called after each stage as ``progress(name, seconds)``, with infinite seconds if the check
+        refused its motion.
+
+    Returns
+    -------
+    FreeForm
+        The motion ``trajectory``, its time ``seconds`` and ``durations``, shape (n_segments,) [s], what
+        each limit costs (``sensitivity``), and the ``stages`` of the search.
+
+    Raises
+    ------
+    InputError
+        If the conditions do not fit the problem, or an option is out of its range.
+    NoFeasibleMotion
+        If no motion was found that keeps the conditions. Without conditions this happens only where the
+        problem's numbers are too far apart for double precision.
+
+    See Also
+    --------
+    free_form_bound : a certified lower bound on the time of every motion.
+    formulations.diagnosis.diagnose : which limits hold the motion up.
+
+    Notes
+    -----
+    Without conditions the answer is never slower than stop and go. With velocity limits only, no motion
+    attains the infimum; the one returned is within 3e-6 of it, relative.
+
+    The program stands in ``formulations.optima.free_form.nlp.equations``. Where a motion leaves the
+    position limits between waypoints, constraints on its Bernstein coefficients are added and the program
+    is solved again.
+
+    References
+    ----------
+    .. [1] Biagiotti & Melchiorri 2008, "Trajectory Planning for Automatic Machines and Robots", sec. 3.4,
+       Springer.
+    .. [2] Wächter & Biegler 2006, "On the implementation of an interior-point filter line-search
+       algorithm for large-scale nonlinear programming", Mathematical Programming 106, pp. 25-57.
+    .. [3] Berscheid & Kroeger 2021, "Jerk-limited real-time trajectory generation with arbitrary target
+       states", Robotics: Science and Systems XVII.
+
+    Examples
+    --------
+    A joint that moves 1 rad from rest to rest at 4 rad/s^2 takes 2 sqrt(1 / 4) = 1 s:
+
+    >>> from formulations import Limits, Problem, free_form
+    >>> problem = Problem.of([[0.0], [0.4], [1.0]], Limits.of(velocity=10.0, acceleration=4.0, dof=1))
+    >>> found = free_form(problem, tolerance=1e-6)
+    >>> round(found.seconds, 5)
+    1.0
+    >>> found.verdict.feasible
+    True
+    >>> found.trajectory.at(found.trajectory.passage_times).round(6).tolist()  # the waypoints
+    [[0.0], [0.4], [1.0]]
     """
     begun = time.perf_counter()
     asked = conditions or Conditions()
@@ -91,10 +184,10 @@ def free_form(
     if solver == "ipopt" and not casadi.has_nlpsol("ipopt"):
         solver = "highs"
         notes.append("this CasADi has no IPOPT: solved by sequential linear programs")
-    task = Task(problem, asked)
+    task = ConditionedProblem(problem, asked)
     if not task.n_segments:
         return _nothing_moves(problem, asked, begun)
-    search = Search(task, solver, progress)
+    search = MeshRefinement(task, solver, progress)
     if task.timed:
         notes += search.run_timed(mesh)
     else:
@@ -140,8 +233,8 @@ def _nothing_moves(problem: Problem, asked: Conditions, begun: float) -> FreeFor
     )
 
 
-def _or_ruckig(problem: Problem, best: Found) -> Found:
-    """Ruckig's own stop and go, should rounding make it the faster one."""
+def _or_ruckig(problem: Problem, best: VerifiedMotion) -> VerifiedMotion:
+    """Take Ruckig's own stop and go where rounding makes it the faster one."""
     outcome = ruckig_stop_and_go(problem)
     if outcome.trajectory is None or outcome.trajectory.seconds >= best.verdict.seconds:
         return best
@@ -150,8 +243,15 @@ def _or_ruckig(problem: Problem, best: Found) -> Found:
     return replace(best, name=name, trajectory=outcome.trajectory, verdict=verdict)
 
 
-def _why_not(problem: Problem, asked: Conditions, search: Search, mesh: int, solver: Solver) -> str:
-    """One line that names the conditions and, where times are fixed, what is possible without."""
+def _why_not(
+    problem: Problem, asked: Conditions, search: MeshRefinement, mesh: int, solver: Solver
+) -> str:
+    """One line that names the conditions and, where times are fixed, what is possible without them."""
+    last = next((stage.status for stage in reversed(search.stages) if stage.status), "")
+    if asked.none:
+        return (
+            f"no motion passes the check, as the numbers are too far apart for double precision: {last}"
+        )
     named = [key for key in ("passage", "total", "stops", "segment_limits") if getattr(asked, key)]
     named += [key for key in ("start_velocity", "end_velocity") if getattr(asked, key) is not None]
     line = f"no motion found that keeps conditions.{', conditions.'.join(named)}"
@@ -167,5 +267,4 @@ def _why_not(problem: Problem, asked: Conditions, search: Search, mesh: int, sol
                 for w, time in sorted(asked.times(problem).items())
             ]
             return f"{line}; the fastest one found passes {'; '.join(passed)}"
-    last = next((stage.status for stage in reversed(search.stages) if stage.status), "")
     return f"{line}; the last one tried: {last}"

@@ -1,13 +1,13 @@
-"""What holds the time up: derivatives of the total time by every limit and displacement.
+"""Sensitivity: derivatives of the total time by every limit and displacement, from the multipliers.
 
-They are read off the multipliers of the program at its solution. Slowing a motion down by 1 + e is the
-same as lowering velocity limits by e, acceleration limits by 2 e and jerk limits by 3 e, so for the
-fastest motion, with s_i = -dT / d log(limit_i) of order o_i, Euler's identity holds:
+A motion slowed down by 1 + e keeps velocity limits that are lower by e, acceleration limits by 2 e and
+jerk limits by 3 e, to first order. So for the fastest motion, with s_i = -dT / d log(limit_i) of a limit
+of order o_i, Euler's identity holds:
 
     sum_i o_i s_i = T
 
-and o_i s_i is the share of the time that a limit holds. Position limits have no share: slowing down
-does not change the path.
+and o_i s_i is the share of the time that a limit holds. Position limits have no share, since slowing
+down does not change the path.
 """
 
 from __future__ import annotations
@@ -16,7 +16,8 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from formulations.optima.free_form.nlp.program import Program, Solution
+from formulations.optima.free_form.nlp.equations import Block
+from formulations.optima.free_form.nlp.program import FreeFormNLP, NLPSolution
 from formulations.problem.arrays import Array
 
 
@@ -24,10 +25,15 @@ from formulations.problem.arrays import Array
 class Sensitivity:
     """Derivatives of the total time at the optimum, per segment and joint of the problem.
 
-    limits: (3, n_segments, dof) [s], dT / d log(limit) of velocity, acceleration and jerk: 10 % more of
-    a limit changes the time by 0.1 of it, to first order.
-    positions: (n_segments, dof, 2) [s/rad], dT / d bound of the lower and upper position limit.
-    displacements: (n_segments, dof) [s/rad], dT / d displacement of one segment alone.
+    Attributes
+    ----------
+    limits : Array, shape (3, n_segments, dof) [s]
+        dT / d log(limit) of velocity, acceleration and jerk limits: 10 % more of a limit changes the
+        time by 0.1 of the entry, to first order.
+    positions : Array, shape (n_segments, dof, 2) [s/rad]
+        dT / d bound of the lower and the upper position limit.
+    displacements : Array, shape (n_segments, dof) [s/rad]
+        dT / d displacement of one segment alone.
     """
 
     limits: Array
@@ -36,80 +42,101 @@ class Sensitivity:
 
     @property
     def held(self) -> Array:
-        """Seconds of the total time that each limit holds, (3, n_segments, dof): they add up to it."""
+        """Seconds of the total time that each limit holds, (3, n_segments, dof); their sum is the time."""
         return np.asarray(-self.limits * np.array([1.0, 2.0, 3.0])[:, None, None])
 
 
-def sensitivity(program: Program, solution: Solution) -> Sensitivity:
-    """From the multipliers of a solved program that minimises the time."""
-    task, second = program.task, program.second
-    S, n_segments, dof = task.n_segments, task.problem.n_segments, task.problem.dof
-    limits = np.zeros((3, S, dof))
-    positions, displacements = np.zeros((S, dof, 2)), np.zeros((S, dof))
+class _Derivatives:
+    """The same for the segments that take time, filled in block by block."""
 
-    # bounds on segment times, by joints with a velocity limit alone
-    ramped, at = task.group(1), S
-    if ramped:
+    def __init__(self, program: FreeFormNLP, solution: NLPSolution) -> None:
+        self.program, self.solution = program, solution
+        self.task, self.numbers = program.task, program.numbers
+        S, dof = self.task.n_segments, self.task.problem.dof
+        self.limits = np.zeros((3, S, dof))
+        self.positions, self.displacements = np.zeros((S, dof, 2)), np.zeros((S, dof))
+
+    def of_times(self, block: Block) -> None:
+        """Bounds on segment times, set by joints with a velocity limit only."""
+        task, low, S = self.task, self.program.low[block.part], self.task.n_segments
+        ramped = task.group(1)
+        if not ramped:
+            return
         shares = np.abs(task.displacements[:, ramped]) / task.limits[0][:, ramped]
-        slowest = np.array(ramped)[shares.argmax(axis=1)]
-        mine = (np.arange(S), slowest)
-        pull = np.maximum(-solution.bound_multipliers[:S], 0.0)
-        limits[(0, *mine)] -= pull * program.low[:S] * second
+        mine = (np.arange(S), np.array(ramped)[shares.argmax(axis=1)])
+        pull = np.maximum(-self.solution.bound_multipliers[block.part], 0.0)
+        self.limits[(0, *mine)] -= pull * low * self.numbers.second
         with np.errstate(divide="ignore", invalid="ignore"):
-            rate = pull * program.low[:S] * second / task.displacements[mine]
-        displacements[mine] += np.where(task.displacements[mine] != 0.0, rate, 0.0)
+            rate = pull * low * self.numbers.second / task.displacements[mine]
+        self.displacements[mine] += np.where(task.displacements[mine] != 0.0, rate, 0.0)
 
-    # bounds on velocity and acceleration at the nodes
-    for order, joints in program.groups.items():
-        arcs = program.arcs[order - 2]
-        if program.free:
-            at += len(joints) * S * arcs
-        for derivative in range(order - 1):
-            size = len(joints) * (S * arcs + 1)
-            part = slice(at, at + size)
-            ends = program.high[part] == program.low[part]  # states that are given
-            pull = np.where(ends, 0.0, np.abs(solution.bound_multipliers[part])) * program.high[part]
-            limits[derivative][:, joints] -= (
-                _by_segment(pull.reshape(-1, len(joints)), S, arcs) * second
-            )
-            at += size
+    def of_nodes(self, block: Block, derivative: int) -> None:
+        """Bounds on velocity (0) or acceleration (1) at the nodes."""
+        joints, arcs = self.numbers.groups[block.order], self.numbers.arcs_of(block.order)
+        low, high = self.program.low[block.part], self.program.high[block.part]
+        # states that are given have no limit
+        pull = np.where(high == low, 0.0, np.abs(self.solution.bound_multipliers[block.part])) * high
+        per_segment = _by_segment(pull.reshape(-1, len(joints)), self.task.n_segments, arcs)
+        self.limits[derivative][:, joints] -= per_segment * self.numbers.second
 
-    # rows
-    at = 0
-    guarded = iter(program.shape.guarded)
-    for kind, order, n in program.symbols.kinds:
-        found = solution.row_multipliers[at : at + n]
-        high = program.row_high[at : at + n]
-        at += n
-        joints = program.groups.get(order, [])
-        if kind == "velocity":
-            pull = (np.abs(found) * high).reshape(S, -1, len(joints)).sum(axis=1)
-            limits[0][:, joints] -= pull * second
-        elif kind == "top":
-            # d row / d log(limit) = limit h, with h as the solution has it
-            reach = _reach(program, solution, order).reshape(-1, len(joints))
+    def of_row(self, block: Block) -> None:
+        """The rows of one block."""
+        S, joints = self.task.n_segments, self.numbers.groups.get(block.order, [])
+        found = self.solution.row_multipliers[block.part]
+        if block.name == "velocity":
+            pull = np.abs(found) * self.program.row_high[block.part]
+            pull = pull.reshape(S, -1, len(joints)).sum(axis=1)
+            self.limits[0][:, joints] -= pull * self.numbers.second
+        elif block.name == "top":
+            # d row / d log(limit) = limit h, with h of the solution
+            reach = _reach(self.program, self.solution, block.order).reshape(-1, len(joints))
             pull = (np.abs(found.reshape(-1, len(joints))) * reach).reshape(S, -1, len(joints))
-            limits[order - 1][:, joints] -= pull.sum(axis=1) * second
-        elif kind == "displacement":
-            displacements[:, joints] -= found.reshape(S, -1) / program.v_unit[joints]
-        elif kind == "position":
-            _, i, k, *_ = next(guarded)
-            unit = program.v_unit[joints[i]]
-            positions[k, joints[i]] -= np.array([found[found < 0].sum(), found[found > 0].sum()]) / unit
+            self.limits[block.order - 1][:, joints] -= pull.sum(axis=1) * self.numbers.second
+        elif block.name == "displacement":
+            self.displacements[:, joints] -= found.reshape(S, -1) / self.numbers.v_unit[joints]
+        elif block.place is not None:
+            j, k = joints[block.place.member], block.place.segment
+            both = np.array([found[found < 0].sum(), found[found > 0].sum()])
+            self.positions[k, j] -= both / self.numbers.v_unit[j]
+
+
+def read_sensitivity(program: FreeFormNLP, solution: NLPSolution) -> Sensitivity:
+    """Read the derivatives off the multipliers of a solved program that minimises the time.
+
+    Parameters
+    ----------
+    program : FreeFormNLP
+    solution : NLPSolution
+
+    Returns
+    -------
+    Sensitivity
+    """
+    found = _Derivatives(program, solution)
+    for block in program.equations.variables:
+        if block.name == "times":
+            found.of_times(block)
+        elif block.name in ("velocity", "acceleration"):
+            found.of_nodes(block, ("velocity", "acceleration").index(block.name))
+    for block in program.equations.rows:
+        found.of_row(block)
+    task = program.task
 
     def spread(values: Array, axis: int) -> Array:
         """To the problem's own segments; those that take no time hold nothing."""
         shape = list(values.shape)
-        shape[axis] = n_segments
+        shape[axis] = task.problem.n_segments
         whole = np.zeros(shape)
         whole[(slice(None),) * axis + (task.segments,)] = values
         return whole
 
-    return Sensitivity(spread(limits, 1), spread(positions, 0), spread(displacements, 0))
+    return Sensitivity(
+        spread(found.limits, 1), spread(found.positions, 0), spread(found.displacements, 0)
+    )
 
 
 def _by_segment(pull: Array, segments: int, arcs: int) -> Array:
-    """Pulls at the nodes (S arcs + 1, n) summed per segment (S, n); waypoints shared by both sides."""
+    """Pulls at the nodes (S arcs + 1, n) summed per segment (S, n); half at a waypoint for each side."""
     inner = pull[:-1].reshape(segments, arcs, -1)
     found = inner[:, 1:].sum(axis=1) + 0.5 * inner[:, 0]
     found[:-1] += 0.5 * inner[1:, 0]
@@ -118,21 +145,14 @@ def _by_segment(pull: Array, segments: int, arcs: int) -> Array:
     return np.asarray(found)
 
 
-def _reach(program: Program, solution: Solution, order: int) -> Array:
-    """Limit times arc duration in the program's units, flat as its rows."""
-    task, joints, arcs = program.task, program.groups[order], program.arcs[order - 2]
-    S, n = task.n_segments, len(joints)
-    unit = (program.a_unit if order == 3 else program.v_unit)[joints]
-    top = task.limits[order - 1][:, joints] * program.second / unit
+def _reach(program: FreeFormNLP, solution: NLPSolution, order: int) -> Array:
+    """Limit times arc duration in the program's units, in the order of its rows."""
+    numbers, arcs = program.numbers, program.numbers.arcs_of(order)
+    S, n = program.task.n_segments, len(numbers.groups[order])
+    top = numbers.top(order).reshape(S, n)
     if not program.free:
-        h = np.repeat(solution.x[:S, None] / arcs, n, axis=1)[:, None]
+        times = solution.x[program.equations.variable("times", 0)]
+        h = np.repeat(times[:, None] / arcs, n, axis=1)[:, None]
         return np.asarray(np.repeat(top[:, None] * h, arcs, axis=1).ravel())
-    before = S if order == 2 or 2 not in program.groups else S + _size(program, 2)
-    h = solution.x[before : before + n * S * arcs].reshape(S, arcs, n)
+    h = solution.x[program.equations.variable("arcs", order)].reshape(S, arcs, n)
     return np.asarray((top[:, None] * h).ravel())
-
-
-def _size(program: Program, order: int) -> int:
-    """Number of variables of a group."""
-    n, steps = len(program.groups[order]), program.task.n_segments * program.arcs[order - 2]
-    return n * (steps * program.free + (steps + 1) * (order - 1))

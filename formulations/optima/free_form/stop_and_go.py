@@ -1,23 +1,36 @@
-"""Full stop at every waypoint in closed form: a motion that is always there, without a solver.
+"""Stop and go in closed form: the motion that stops at every waypoint, which needs no solver.
 
 Each joint crosses each segment on its own fastest symmetric S-curve (Biagiotti & Melchiorri 2008,
-sec. 3.4), slowed down to the slowest joint's time; it never leaves the segment's two waypoints.
+sec. 3.4), slowed down to the time of the slowest joint. It stays between the segment's two waypoints.
+
+References
+----------
+Biagiotti & Melchiorri 2008, "Trajectory Planning for Automatic Machines and Robots", Springer.
 """
 
 from __future__ import annotations
 
 import numpy as np
 
-from formulations.optima.free_form.nlp.arcs import Arcs, Motion
+from formulations.optima.free_form.nlp.arcs import ArcMotion, Arcs
 from formulations.optima.free_form.nlp.assembly import least_times
-from formulations.optima.free_form.nlp.task import Task
+from formulations.optima.free_form.nlp.conditioned import ConditionedProblem
 from formulations.problem.arrays import Array
 
 
-def stop_and_go(task: Task) -> Motion:
-    """Rest to rest across every segment; times of conditions are met by slowing down, if at all.
+def stop_and_go_motion(task: ConditionedProblem) -> ArcMotion:
+    """Move from rest to rest across every segment.
 
-    End velocities that are not zero are not met: then it is a start for the solvers, not an answer.
+    Times of conditions are met by slowing down; those that are too short are not met. End velocities
+    that are not zero are not met either: then the motion is a start for the solvers, not an answer.
+
+    Parameters
+    ----------
+    task : ConditionedProblem
+
+    Returns
+    -------
+    ArcMotion
     """
     least = least_times(task)
     profiles = {}
@@ -40,25 +53,36 @@ def stop_and_go(task: Task) -> Motion:
         h = np.where(still[:, None], times[:, None] / phases.shape[1], phases * factor[:, None])
         tops = np.where(still, 0.0, limit / factor**order)[:, None] * signs
         joints[j] = Arcs(order, h, tops, np.zeros((task.n_segments + 1, 2)))
-    return Motion(times, joints)
+    return ArcMotion(times, joints)
 
 
 def s_curve(distance: Array, limits: Array, order: int) -> Array:
-    """Phases of the fastest rest-to-rest motions: (S, 7) [s], without a jerk limit (S, 3).
+    """Compute the phases of the fastest motions from rest to rest.
 
-    distance: (S,) [rad], not negative. limits: (3, S).
+    Parameters
+    ----------
+    distance : Array, shape (S,) [rad]
+        Not negative.
+    limits : Array, shape (3, S)
+        Of velocity, acceleration and jerk.
+    order : int
+        3, or 2 without a jerk limit.
+
+    Returns
+    -------
+    Array, shape (S, 7) or of order 2 (S, 3) [s]
     """
     velocity, acceleration, jerk = limits
     if order == 2:
         rise = np.minimum(velocity / acceleration, np.sqrt(distance / acceleration))
         cruise = np.maximum(distance - acceleration * rise**2, 0.0) / velocity
         return np.stack([rise, np.where(rise < velocity / acceleration, 0.0, cruise), rise], axis=1)
-    # jerk phase: until the acceleration, the velocity or the distance is used up
+    # jerk phase: until the acceleration limit, the velocity limit or the distance is reached
     tj = np.minimum.reduce(
         [acceleration / jerk, np.sqrt(velocity / jerk), np.cbrt(distance / (2.0 * jerk))]
     )
     full = tj >= acceleration / jerk
-    # constant acceleration: until the velocity or the distance is used up
+    # constant acceleration: until the velocity limit or the distance is reached
     peak = acceleration
     by_velocity = velocity / peak - tj
     root = np.sqrt(tj**2 + 4.0 * distance / peak)
@@ -71,8 +95,8 @@ def s_curve(distance: Array, limits: Array, order: int) -> Array:
     return np.stack([tj, ta, tj, tv, tj, ta, tj], axis=1)
 
 
-def _slowed(task: Task, times: Array) -> Array:
-    """Times stretched between fixed ones to meet them; as they are where they would have to shrink."""
+def _slowed(task: ConditionedProblem, times: Array) -> Array:
+    """Segment times stretched to meet the fixed times, and not shrunk where these are too short."""
     found, before, earlier = times.copy(), 0, 0.0
     for waypoint, time in sorted(task.times.items()):
         block = slice(before, waypoint)

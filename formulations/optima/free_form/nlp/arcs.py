@@ -1,7 +1,7 @@
-"""A motion as arcs: each joint crosses each segment on arcs of its own, of constant jerk.
+"""A motion as arcs: each joint crosses each segment on its own arcs of constant jerk.
 
-(For a joint without a jerk limit: of constant acceleration.) Arcs hold the free-form optimum exactly,
-since it is bang-bang wherever it is unique.
+For a joint without a jerk limit the arcs have constant acceleration. Arcs can represent the free-form
+optimum exactly, since it is bang-bang wherever it is unique.
 """
 
 from __future__ import annotations
@@ -15,10 +15,17 @@ from formulations.problem.arrays import Array
 
 @dataclass(frozen=True)
 class Arcs:
-    """One joint. durations: (S, M) [s]. tops: (S, M), the jerk or, of order 2, the acceleration.
+    """The motion of one joint, M arcs on each of S segments.
 
-    order: 3 or 2. states: (S + 1, 2), velocity and acceleration at the waypoints; of order 2 the latter
-    is 0 and means nothing.
+    Attributes
+    ----------
+    order : int
+        3, or 2 for a joint without a jerk limit.
+    durations : Array, shape (S, M) [s]
+    tops : Array, shape (S, M)
+        The jerk of each arc [rad/s^3], or of order 2 the acceleration [rad/s^2].
+    states : Array, shape (S + 1, 2)
+        Velocity and acceleration at the waypoints; of order 2 the acceleration is 0 and not used.
     """
 
     order: int
@@ -39,7 +46,7 @@ class Arcs:
 
     @property
     def displacements(self) -> Array:
-        """What the arcs of each segment add up to, (S,) [rad]."""
+        """Displacement over the arcs of each segment, (S,) [rad]."""
         v, a = self.nodes
         h, top = self.durations, self.tops
         if self.order == 2:
@@ -47,7 +54,16 @@ class Arcs:
         return np.asarray((h * (v[:, :-1] + h * (a[:, :-1] / 2.0 + h * top / 6.0))).sum(axis=1))
 
     def stretched(self, factor: float) -> Arcs:
-        """The same path, every time multiplied by ``factor``."""
+        """Stretch time: the same path, every time multiplied by ``factor``.
+
+        Parameters
+        ----------
+        factor : float
+
+        Returns
+        -------
+        Arcs
+        """
         states = self.states / np.array([factor, factor**2])
         tops = self.tops / factor**self.order
         return replace(self, durations=self.durations * factor, tops=tops, states=states)
@@ -58,9 +74,20 @@ class Arcs:
         return replace(self, durations=halves, tops=np.repeat(self.tops, 2, axis=1))
 
     def fitted(self, n: int, floor: float) -> Arcs:
-        """On exactly n arcs: the shortest merged, the longest split, none below a share of its segment.
+        """Change the number of arcs per segment: merge the shortest, split the longest.
 
-        Changes the motion by what it merges: a start for a solver, not an answer.
+        Merging changes the motion, so that the result is a start for a solver and not an answer.
+
+        Parameters
+        ----------
+        n : int
+            Number of arcs per segment.
+        floor : float
+            Least duration of an arc, as a share of the mean arc of its segment.
+
+        Returns
+        -------
+        Arcs
         """
         h, top = self.durations, self.tops
         while h.shape[1] > n:
@@ -73,9 +100,17 @@ class Arcs:
         return replace(self, durations=h * total / h.sum(axis=1, keepdims=True), tops=top)
 
     def projected(self, displacements: Array) -> Arcs:
-        """The nearest tops that meet displacements (S,) and states exactly.
+        """Correct the tops so that displacements and states are met exactly, with the least change.
 
-        A solver leaves these equations true to its tolerance only.
+        A solver fulfils these equations to its tolerance only.
+
+        Parameters
+        ----------
+        displacements : Array, shape (S,) [rad]
+
+        Returns
+        -------
+        Arcs
         """
         h = self.durations
         seconds = h.sum(axis=1, keepdims=True)
@@ -124,16 +159,32 @@ def _longest_split(h: Array, top: Array) -> tuple[Array, Array]:
 
 
 @dataclass(frozen=True)
-class Motion:
-    """Segment times (S,) [s] and the arcs of each joint that has any, by joint."""
+class ArcMotion:
+    """The motion of all joints that have arcs.
+
+    Attributes
+    ----------
+    times : Array, shape (S,) [s]
+        Segment times.
+    joints : dict of int to Arcs
+    """
 
     times: Array
     joints: dict[int, Arcs]
 
-    def stretched(self, factor: float) -> Motion:
-        """The same path, every time multiplied by ``factor``."""
-        return Motion(self.times * factor, {j: a.stretched(factor) for j, a in self.joints.items()})
+    def stretched(self, factor: float) -> ArcMotion:
+        """Stretch time: the same path, every time multiplied by ``factor``.
 
-    def split(self) -> Motion:
+        Parameters
+        ----------
+        factor : float
+
+        Returns
+        -------
+        ArcMotion
+        """
+        return ArcMotion(self.times * factor, {j: a.stretched(factor) for j, a in self.joints.items()})
+
+    def split(self) -> ArcMotion:
         """The same motion on twice as many arcs."""
-        return Motion(self.times, {j: a.split() for j, a in self.joints.items()})
+        return ArcMotion(self.times, {j: a.split() for j, a in self.joints.items()})

@@ -1,7 +1,7 @@
-"""Arcs of all joints as one trajectory of common polynomial pieces, exact to rounding.
+"""Assembly: the arcs of all joints as one trajectory of common polynomial pieces, exact to rounding.
 
-Break times are rounded to a grid that doubles hold exactly, so that sums and differences of them are
-exact. Joints with a velocity limit alone cross each segment on a trapezoid with very short ramps.
+Break times are rounded to a grid on which sums and differences of doubles are exact. Joints with a
+velocity limit only cross each segment on a velocity trapezoid with very short ramps.
 """
 
 from __future__ import annotations
@@ -9,28 +9,49 @@ from __future__ import annotations
 from dataclasses import replace
 
 import numpy as np
-from numpy.typing import NDArray
 
 from formulations.motion.trajectory import Trajectory
-from formulations.optima.free_form.nlp.arcs import Motion
-from formulations.optima.free_form.nlp.task import Task
-from formulations.problem.arrays import Array
+from formulations.optima.free_form.nlp.arcs import ArcMotion
+from formulations.optima.free_form.nlp.conditioned import ConditionedProblem
+from formulations.problem.arrays import Array, Indices
 
-RAMP = 1e-6  # share of a segment in which a joint with a velocity limit alone changes its velocity
+RAMP = 1e-6  # share of a segment that a joint with a velocity limit only takes to change its velocity
 
 
-def least_times(task: Task) -> Array:
-    """Least time of each segment by the joints with a velocity limit alone, (S,) [s].
+def least_times(task: ConditionedProblem) -> Array:
+    """Compute the least time of each segment set by the joints with a velocity limit only.
 
-    Their infimum |d| / V is no motion's: the velocity needs some time to change.
+    It is slightly above the infimum |d| / V, which no motion attains: the velocity needs some time to
+    change.
+
+    Parameters
+    ----------
+    task : ConditionedProblem
+
+    Returns
+    -------
+    Array, shape (S,) [s]
     """
     joints = task.group(1)
     shares = np.abs(task.displacements[:, joints]) / task.limits[0][:, joints]
     return np.asarray(shares.max(axis=1, initial=0.0) / (1.0 - 3.0 * RAMP))
 
 
-def trajectory(task: Task, motion: Motion) -> Trajectory:
-    """The motion as common pieces; its arcs' tops are moved by rounding or a solver's tolerance."""
+def assemble(task: ConditionedProblem, motion: ArcMotion) -> Trajectory:
+    """Assemble a motion to a trajectory that passes the waypoints exactly.
+
+    The tops of the arcs are changed within rounding or the solver's tolerance.
+
+    Parameters
+    ----------
+    task : ConditionedProblem
+    motion : ArcMotion
+
+    Returns
+    -------
+    Trajectory
+        Of all joints of the problem, with the passage times of all its waypoints.
+    """
     grid = 2.0 ** (np.ceil(np.log2(motion.times.sum())) - 52)
     passages = np.round(np.concatenate([[0.0], np.cumsum(motion.times)]) / grid) * grid
     ends = {}
@@ -59,9 +80,10 @@ def trajectory(task: Task, motion: Motion) -> Trajectory:
     return Trajectory(durations, coefficients, passages[task.waypoint_of])
 
 
-def _integrated(h: Array, segment: NDArray[np.intp], top: Array, start: Array, order: int) -> Array:
-    """Coefficients (n_pieces, 4) from the highest derivative and the state (n_pieces, 3) of the
-    waypoint before.
+def _integrated(h: Array, segment: Indices, top: Array, start: Array, order: int) -> Array:
+    """Coefficients (n_pieces, 4) of one joint, by integration on each segment.
+
+    top: (n_pieces,), the highest derivative. start: (n_pieces, 3), the state at the waypoint before.
     """
     first = np.searchsorted(segment, np.arange(segment[-1] + 1))[segment]
 
@@ -77,15 +99,15 @@ def _integrated(h: Array, segment: NDArray[np.intp], top: Array, start: Array, o
     return np.stack([x, v, a / 2.0, jerk / 6.0], axis=1)
 
 
-def _ramps(task: Task, passages: Array, grid: float) -> Array:
-    """Start, end of the rise and start of the fall of the trapezoids, (S, 3); empty if none."""
+def _ramps(task: ConditionedProblem, passages: Array, grid: float) -> Array:
+    """Start of the rise, its end, and start of the fall of the trapezoids, (S, 3); empty if none."""
     if not task.group(1):
         return np.zeros((0, 3))
     length = np.maximum(np.round(RAMP * np.diff(passages) / grid) * grid, grid)
     return np.stack([passages[:-1], passages[:-1] + length, passages[1:] - length], axis=1)
 
 
-def _trapezoids(task: Task, j: int, passages: Array, ramps: Array) -> tuple[Array, Array]:
+def _trapezoids(task: ConditionedProblem, j: int, passages: Array, ramps: Array) -> tuple[Array, Array]:
     """Acceleration on each part of each segment, (S, 3), and velocities at the waypoints, (S + 1,)."""
     rise, seconds = ramps[:, 1] - ramps[:, 0], np.diff(passages)
     v = np.zeros(len(passages))

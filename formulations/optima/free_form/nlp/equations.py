@@ -1,4 +1,4 @@
-"""The free-form nonlinear program on arcs.
+"""The free-form nonlinear program on arcs: each block is registered once, with its name and its bounds.
 
     minimise    sum_k T_k
     subject to, for each joint, on each arc of duration h with jerk (a+ - a) / h,
@@ -11,34 +11,51 @@
 
 (3) bounds the three Bernstein coefficients of the velocity, hence the velocity at all times; it is
 exact once an arc ends where the acceleration is zero. Joints without a jerk limit have no a: (2) is
-|v+ - v| <= A h, and (5) sum h (v + v+) / 2 = d. Where a joint has left its position limits in an
-earlier solution, the Bernstein coefficients of its position are bounded too:
+|v+ - v| <= A h, and (5) is sum h (v + v+) / 2 = d. Where a joint left its position limits in an earlier
+solution, the Bernstein coefficients of its position are bounded too:
         x, x + h v / 3, x+ - h v+ / 3 (of order 2: x + h v / 2) within [low, high]       (6)
 
-Free: every arc of every joint has a duration of its own, h >= 0, and the program holds the optimum
-exactly. Uniform: h = T_k / N; fewer ways to go wrong (for given T the rest is convex), but inexact.
+Free arcs: every arc of every joint has a duration h >= 0 of its own, and the program contains the
+optimum exactly. Even steps: h = T_k / N. Then fewer local optima occur (for given T the rest is convex),
+but the optimum is approximate.
 """
 
 from __future__ import annotations
 
+from collections.abc import Callable
 from dataclasses import dataclass
-from functools import cached_property
-from typing import Any
+from functools import cached_property, lru_cache
+from typing import Any, TypeAlias
 
 import casadi
 import numpy as np
 
-Place = tuple[int, int, int, int, int]
+from formulations.optima.free_form.nlp.scaled import Place, ScaledProblem
+from formulations.problem.arrays import Array
+
+Rule: TypeAlias = Callable[[ScaledProblem], tuple[Array | float, Array | float]]  # low and high
 
 
 @dataclass(frozen=True)
 class Shape:
     """All that the symbols of a program depend on; programs of equal shape share them.
 
-    joints: number of joints of order 2 and 3. arcs: per segment, of order 2 and 3. timed: waypoints
-    with a fixed time. guarded: order, index in its group and segment of the joints with rows (6), and
-    how many of these to leave out at either end since they hold by themselves. smooth: the objective is
-    the integral of the squares of jerk over limit (order 2: acceleration), not the time.
+    Attributes
+    ----------
+    segments : int
+    joints : tuple of int
+        Number of joints of order 2 and of order 3.
+    arcs : tuple of int
+        Number of arcs per segment, of order 2 and of order 3.
+    free : bool
+        Free arcs, or even steps.
+    timed : tuple of int
+        Waypoints with a fixed time.
+    guarded : tuple of Place
+        Where rows (6) are posed.
+    smooth : bool
+        Whether the objective is the integral of the squares of jerk over limit (of order 2:
+        acceleration over limit), and not the time.
     """
 
     segments: int
@@ -50,90 +67,214 @@ class Shape:
     smooth: bool = False
 
 
-class Symbols:
-    """Variables, parameters, objective and rows of one shape, in scaled units."""
+@dataclass(frozen=True)
+class Block:
+    """A block of variables or rows of one group of joints.
+
+    Attributes
+    ----------
+    name : str
+    order : int
+        Highest limited derivative of the group's joints, 2 or 3; 0 for blocks of no group.
+    symbols : casadi.SX, shape (n, 1)
+        Joints change fastest, then arcs or segments.
+    part : slice
+        Its place among all variables or all rows.
+    rule : callable
+        The lower and the upper bound, from the numbers of a problem.
+    linear : bool
+        Whether rows are linear in the variables.
+    place : Place or None
+        Of rows (6).
+    """
+
+    name: str
+    order: int
+    symbols: Any
+    part: slice
+    rule: Rule
+    linear: bool = True
+    place: Place | None = None
+
+    def bounds(self, numbers: ScaledProblem) -> tuple[Array, Array]:
+        """Evaluate the bounds.
+
+        Parameters
+        ----------
+        numbers : ScaledProblem
+
+        Returns
+        -------
+        low, high : Array, shape (n,)
+        """
+        n = self.part.stop - self.part.start
+        low, high = (np.broadcast_to(side, n) for side in self.rule(numbers))
+        return low, high
+
+
+@dataclass(frozen=True)
+class Parameter:
+    """A block of numbers that the rows contain, and how they follow from a problem."""
+
+    name: str
+    order: int
+    symbols: Any
+    value: Callable[[ScaledProblem], Array]
+
+
+def _equal(numbers: ScaledProblem) -> tuple[float, float]:
+    return 0.0, 0.0
+
+
+def _nonnegative(numbers: ScaledProblem) -> tuple[float, float]:
+    return 0.0, np.inf
+
+
+def _passing(waypoint: int) -> Rule:
+    return lambda numbers: (numbers.fixed_time(waypoint), numbers.fixed_time(waypoint))
+
+
+def _inside(place: Place) -> Rule:
+    return lambda numbers: numbers.room(place)
+
+
+class Equations:
+    """Variables, parameters, rows and objective of one shape, in scaled units."""
 
     def __init__(self, shape: Shape) -> None:
-        S = shape.segments
-        self.times = casadi.SX.sym("T", S)
-        self.variables: list[Any] = [self.times]
-        self.parameters: list[Any] = []
-        self.rows: list[Any] = []
-        self.kinds: list[tuple[str, int, int]] = []  # kind, order of the group, number of rows
-        cost = casadi.sum1(self.times)
+        """Register every block of the program.
+
+        Parameters
+        ----------
+        shape : Shape
+        """
+        self.shape = shape
+        self.variables: list[Block] = []
+        self.parameters: list[Parameter] = []
+        self.rows: list[Block] = []
+        times = casadi.SX.sym("T", shape.segments)
+        self._variable("times", 0, times, lambda p: (p.least_times, np.inf))
+        cost = casadi.sum1(times)
         roughness = 0.0
         for order, n, arcs in zip((2, 3), shape.joints, shape.arcs, strict=True):
             if n:
-                roughness += self._group(shape, order, n, arcs)
+                roughness += self._group(order, n, arcs, times)
         for waypoint in shape.timed:
-            self._row("time", 0, casadi.sum1(self.times[:waypoint]))
+            self._row("time", 0, casadi.sum1(times[:waypoint]), _passing(waypoint))
         self.objective = roughness if shape.smooth else cost
 
-    def _row(self, kind: str, order: int, rows: Any) -> None:
-        self.rows.append(casadi.vec(rows))
-        self.kinds.append((kind, order, rows.numel()))
+    def _variable(self, name: str, order: int, symbols: Any, rule: Rule) -> None:
+        column = casadi.vec(symbols)
+        self.variables.append(Block(name, order, column, _next(self.variables, column), rule))
 
-    def _group(self, shape: Shape, order: int, n: int, arcs: int) -> Any:
-        S, steps = shape.segments, shape.segments * arcs
-        v = casadi.SX.sym("v", n, steps + 1)
-        # top: limit on the steps of a (of order 2: of v) per unit of time; d: displacements
-        top, d = casadi.SX.sym("top", n, S), casadi.SX.sym("d", n, S)
+    def _parameter(
+        self, name: str, order: int, symbols: Any, value: Callable[[ScaledProblem], Array]
+    ) -> None:
+        self.parameters.append(Parameter(name, order, casadi.vec(symbols), value))
+
+    def _row(
+        self,
+        name: str,
+        order: int,
+        expression: Any,
+        rule: Rule,
+        *,
+        linear: bool = True,
+        place: Place | None = None,
+    ) -> None:
+        column = casadi.vec(expression)
+        part = _next(self.rows, column)
+        self.rows.append(Block(name, order, column, part, rule, linear, place))
+
+    def _group(self, order: int, n: int, arcs: int, times: Any) -> Any:
+        """Register the joints of one order; returns their roughness."""
+        S, steps = self.shape.segments, self.shape.segments * arcs
         per_step = np.repeat(np.arange(S), arcs).tolist()
-        if shape.free:
+        v = casadi.SX.sym("v", n, steps + 1)
+        # top: limit on the change of a (of order 2: of v) per unit of time; d: displacements
+        top, d = casadi.SX.sym("top", n, S), casadi.SX.sym("d", n, S)
+        if self.shape.free:
             h = casadi.SX.sym("h", n, steps)
-            self.variables.append(casadi.vec(h))
+            self._variable("arcs", order, h, _nonnegative)
         else:
-            h = casadi.repmat(casadi.horzcat(*[self.times[k] / arcs for k in per_step]), n, 1)
-        self.variables.append(casadi.vec(v))
-        self.parameters += [casadi.vec(top), casadi.vec(d)]
+            h = casadi.repmat(casadi.horzcat(*[times[k] / arcs for k in per_step]), n, 1)
+        self._variable("velocity", order, v, lambda p: p.at_nodes(order, 0))
+        self._parameter("top", order, top, lambda p: p.top(order))
+        self._parameter("displacement", order, d, lambda p: p.displacement(order))
         v0, v1 = v[:, :-1], v[:, 1:]
         x = h * (v0 + v1) / 2.0
         if order == 3:
             a = casadi.SX.sym("a", n, steps + 1)
             gain = casadi.SX.sym("gain", n)  # what a unit of a adds to v in a unit of time
-            self.variables.append(casadi.vec(a))
-            self.parameters.append(gain)
+            self._variable("acceleration", order, a, lambda p: p.at_nodes(order, 1))
+            self._parameter("gain", order, gain, lambda p: p.gain(order))
             a0, a1 = a[:, :-1], a[:, 1:]
             gh = casadi.repmat(gain, 1, steps) * h
-            self._row("dynamics", order, v1 - v0 - gh * (a0 + a1) / 2.0)  # (1)
-            self._row("velocity", order, v0 + gh * a0 / 2.0)  # (3)
+            gained = v1 - v0 - gh * (a0 + a1) / 2.0
+            self._row("dynamics", order, gained, _equal, linear=False)  # (1)
+            middle = v0 + gh * a0 / 2.0
+            self._row(
+                "velocity", order, middle, lambda p: p.velocity_on_arcs(order), linear=False
+            )  # (3)
             x -= gh * h * (a1 - a0) / 12.0
             change = a1 - a0
         else:
             change = v1 - v0
         reach = top[:, per_step] * h
-        self._row("top", order, reach - change)  # (2)
-        self._row("top", order, reach + change)
-        if shape.free:
-            self._row("sum", order, _per_segment(h, S, arcs) - casadi.repmat(self.times.T, n, 1))  # (4)
-        self._row("displacement", order, _per_segment(x, S, arcs) - d)  # (5)
-        for _, i, k, first, last in (g for g in shape.guarded if g[0] == order):
-            rows = _bernstein(x, h, v, i, k, arcs, order)
-            self._row("position", order, casadi.vertcat(*rows[first : len(rows) - last]))  # (6)
+        self._row("top", order, reach - change, _nonnegative)  # (2)
+        self._row("top", order, reach + change, _nonnegative)
+        if self.shape.free:
+            missing = _per_segment(h, S, arcs) - casadi.repmat(times.T, n, 1)
+            self._row("sum", order, missing, _equal)  # (4)
+        self._row("displacement", order, _per_segment(x, S, arcs) - d, _equal, linear=False)  # (5)
+        for place in (place for place in self.shape.guarded if place.order == order):
+            coefficients = _bernstein(x, h, v, place, arcs)
+            inner = casadi.vertcat(*coefficients[place.first : len(coefficients) - place.last])
+            self._row("position", order, inner, _inside(place), linear=False, place=place)  # (6)
         rough = change / (h * top[:, per_step])
         return casadi.sum1(casadi.vec(rough**2 * h))
 
+    def variable(self, name: str, order: int) -> slice:
+        """Find a block of variables.
+
+        Parameters
+        ----------
+        name : str
+        order : int
+
+        Returns
+        -------
+        slice
+            Its place among all variables.
+        """
+        return next(v.part for v in self.variables if (v.name, v.order) == (name, order))
+
     @cached_property
     def nlp(self) -> dict[str, Any]:
-        """As CasADi takes it."""
+        """The program as CasADi takes it."""
         return {
-            "x": casadi.vertcat(*self.variables),
-            "p": casadi.vertcat(*self.parameters),
+            "x": casadi.vertcat(*(block.symbols for block in self.variables)),
+            "p": casadi.vertcat(*(block.symbols for block in self.parameters)),
             "f": self.objective,
-            "g": casadi.vertcat(*self.rows),
+            "g": casadi.vertcat(*(block.symbols for block in self.rows)),
         }
+
+
+def _next(blocks: list[Block], column: Any) -> slice:
+    start = blocks[-1].part.stop if blocks else 0
+    return slice(start, start + column.numel())
 
 
 def _per_segment(steps: Any, segments: int, arcs: int) -> Any:
     return casadi.horzcat(*[casadi.sum2(steps[:, k * arcs : (k + 1) * arcs]) for k in range(segments)])
 
 
-def _bernstein(x: Any, h: Any, v: Any, i: int, k: int, arcs: int, order: int) -> list[Any]:
-    """Inner Bernstein coefficients of the position from the segment's start on, and inner nodes."""
-    found, at = [], 0.0
-    for step in range(k * arcs, (k + 1) * arcs):
+def _bernstein(x: Any, h: Any, v: Any, place: Place, arcs: int) -> list[Any]:
+    """Inner Bernstein coefficients of the position since the segment's start, and inner nodes."""
+    found, at, i = [], 0.0, place.member
+    for step in range(place.segment * arcs, (place.segment + 1) * arcs):
         after = at + x[i, step]
-        if order == 3:
+        if place.order == 3:
             found += [at + h[i, step] * v[i, step] / 3.0, after - h[i, step] * v[i, step + 1] / 3.0]
         else:
             found.append(at + h[i, step] * v[i, step] / 2.0)
@@ -142,13 +283,16 @@ def _bernstein(x: Any, h: Any, v: Any, i: int, k: int, arcs: int, order: int) ->
     return found[:-1]
 
 
-_SYMBOLS: dict[Shape, Symbols] = {}
+@lru_cache(maxsize=64)
+def equations_of(shape: Shape) -> Equations:
+    """Make the equations of a shape, once.
 
+    Parameters
+    ----------
+    shape : Shape
 
-def symbols(shape: Shape) -> Symbols:
-    """The symbols of a shape, made once."""
-    if shape not in _SYMBOLS:
-        if len(_SYMBOLS) >= 64:
-            _SYMBOLS.clear()
-        _SYMBOLS[shape] = Symbols(shape)
-    return _SYMBOLS[shape]
+    Returns
+    -------
+    Equations
+    """
+    return Equations(shape)

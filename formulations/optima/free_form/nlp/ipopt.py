@@ -1,14 +1,23 @@
-"""A program solved by IPOPT (Wächter & Biegler 2006) through CasADi."""
+"""The free-form program solved by IPOPT, the interior point method, through CasADi.
+
+References
+----------
+Wächter & Biegler 2006, "On the implementation of an interior-point filter line-search algorithm for
+large-scale nonlinear programming", Mathematical Programming 106, pp. 25-57.
+Andersson et al. 2019, "CasADi: a software framework for nonlinear optimization and optimal control",
+Mathematical Programming Computation 11, pp. 1-36.
+"""
 
 from __future__ import annotations
 
+from functools import lru_cache
 from typing import Any
 
 import casadi
 import numpy as np
 
-from formulations.optima.free_form.nlp.equations import Shape
-from formulations.optima.free_form.nlp.program import Program, Solution
+from formulations.optima.free_form.nlp.equations import Shape, equations_of
+from formulations.optima.free_form.nlp.program import FreeFormNLP, NLPSolution
 from formulations.problem.arrays import Array
 
 _OPTIONS: dict[str, Any] = {
@@ -18,23 +27,39 @@ _OPTIONS: dict[str, Any] = {
     "ipopt.bound_relax_factor": 0.0,
     "ipopt.nlp_scaling_method": "none",  # the program is posed in its own units
     "error_on_fail": False,
-    "show_eval_warnings": False,  # a step too far is IPOPT's to take back
+    "show_eval_warnings": False,  # IPOPT shortens a step to a point that cannot be evaluated
 }
-_SOLVERS: dict[tuple[Shape, tuple[tuple[str, Any], ...]], Any] = {}
 
 
 def solve(
-    program: Program,
+    program: FreeFormNLP,
     x: Array,
     *,
     tolerance: float,
     near: float | None = None,
     iterations: int = 300,
-    warm: Solution | None = None,
-) -> Solution:
-    """Solve from x. near: barrier parameter to start with where x is known to be good.
+    warm: NLPSolution | None = None,
+) -> NLPSolution:
+    """Solve a program from a starting point.
 
-    warm: a solution whose multipliers to start from.
+    Parameters
+    ----------
+    program : FreeFormNLP
+    x : Array, shape (n_variables,)
+        The starting point.
+    tolerance : float
+        IPOPT's ``tol``.
+    near : float, optional
+        Barrier parameter to start with, where the starting point is known to be good.
+    iterations : int
+        Greatest number of iterations.
+    warm : NLPSolution, optional
+        A solution whose multipliers to start from.
+
+    Returns
+    -------
+    NLPSolution
+        At the starting point, not converged, where IPOPT gave no finite point.
     """
     options: dict[str, Any] = {"ipopt.tol": tolerance, "ipopt.max_iter": iterations}
     if near is None:
@@ -49,27 +74,39 @@ def solve(
         for frac in ("bound_frac", "slack_bound_frac"):
             options[f"ipopt.warm_start_{frac}"] = 1e-9
         start = {"lam_g0": warm.row_multipliers, "lam_x0": warm.bound_multipliers}
-    key = (program.shape, tuple(sorted(options.items())))
-    if key not in _SOLVERS:
-        if len(_SOLVERS) >= 64:
-            _SOLVERS.clear()
-        _SOLVERS[key] = casadi.nlpsol("free_form", "ipopt", program.symbols.nlp, _OPTIONS | options)
-    solver = _SOLVERS[key]
-    found = solver(
-        x0=x,
-        p=program.parameters,
-        lbx=program.low,
-        ubx=program.high,
-        lbg=program.row_low,
-        ubg=program.row_high,
-        **start,
-    )
+    solver = _solver(program.shape, tuple(sorted(options.items())))
+    try:
+        found = solver(
+            x0=x,
+            p=program.parameters,
+            lbx=program.low,
+            ubx=program.high,
+            lbg=program.row_low,
+            ubg=program.row_high,
+            **start,
+        )
+    except RuntimeError as error:  # CasADi refuses the numbers
+        return _none(program, x, str(error).strip().splitlines()[-1])
     stats = solver.stats()
-    return Solution(
-        np.asarray(found["x"]).ravel(),
+    status = str(stats["return_status"]).replace("_", " ").lower()
+    point = np.asarray(found["x"]).ravel()
+    if not np.isfinite(point).all():
+        return _none(program, x, status)
+    return NLPSolution(
+        point,
         np.asarray(found["lam_g"]).ravel(),
         np.asarray(found["lam_x"]).ravel(),
         bool(stats["success"]),
-        str(stats["return_status"]).replace("_", " ").lower(),
+        status,
         int(stats["iter_count"]),
     )
+
+
+def _none(program: FreeFormNLP, x: Array, status: str) -> NLPSolution:
+    rows, variables = np.zeros(len(program.row_low)), np.zeros(len(x))
+    return NLPSolution(x, rows, variables, False, status, 0)
+
+
+@lru_cache(maxsize=64)
+def _solver(shape: Shape, options: tuple[tuple[str, Any], ...]) -> Any:
+    return casadi.nlpsol("free_form", "ipopt", equations_of(shape).nlp, _OPTIONS | dict(options))

@@ -1,33 +1,38 @@
-"""A program solved by sequential linear programming on HiGHS: the fallback that needs no IPOPT.
+"""The free-form program solved by sequential linear programming on HiGHS, where there is no IPOPT.
 
-Each step minimises the linearised program within a box, at the price ``weight`` for every unit that a
-nonlinear row is missed by (Fletcher & Sainz de la Maza 1989); linear rows are kept. The box grows and
-shrinks with the ratio of the gain made to the gain promised.
+Each step minimises the linearised program within a trust region; every unit by which a nonlinear row is
+violated costs ``weight`` (an exact penalty), and linear rows are kept. The trust region grows and shrinks
+with the ratio of actual to predicted reduction.
+
+References
+----------
+Fletcher & Sainz de la Maza 1989, "Nonlinear programming and nonsmooth optimization by successive linear
+programming", Mathematical Programming 43, pp. 235-256.
 """
 
 from __future__ import annotations
 
 from dataclasses import dataclass
-from typing import Any
+from functools import lru_cache
+from typing import Any, NamedTuple
 
 import casadi
 import numpy as np
 from scipy import sparse
 from scipy.optimize import linprog
 
-from formulations.optima.free_form.nlp.equations import Shape
-from formulations.optima.free_form.nlp.program import Program, Solution
-from formulations.problem.arrays import Array
+from formulations.optima.free_form.nlp.equations import Shape, equations_of
+from formulations.optima.free_form.nlp.program import FreeFormNLP, NLPSolution
+from formulations.problem.arrays import Array, Truths
 
-_LINEARISED: dict[Shape, tuple[Any, Any, Any]] = {}
-_BOX, _SMALLEST, _LARGEST = 0.3, 1e-6, 10.0  # half side of the box, in the program's units
+# half side of the trust region, in the program's units
+_RADIUS, _SMALLEST, _LARGEST = 0.3, 1e-6, 10.0
 _ROUNDING = 1e-9
-_NONLINEAR = {"dynamics", "velocity", "displacement", "position"}
 
 
 @dataclass(frozen=True)
 class _Step:
-    """A linear program's answer: the step, what it promises, multipliers in CasADi's signs."""
+    """A linear program's answer: the step, the merit it predicts, multipliers in CasADi's signs."""
 
     x: Array
     merit: float
@@ -35,96 +40,120 @@ class _Step:
     bound_multipliers: Array
 
 
+class _Model(NamedTuple):
+    """The program linearised at x: values and slopes of the rows, slope of the cost."""
+
+    x: Array
+    rows: Array
+    slopes: sparse.csr_matrix
+    cost: Array
+
+
 def solve(
-    program: Program,
+    program: FreeFormNLP,
     x: Array,
     *,
     tolerance: float,
     near: float | None = None,
     iterations: int = 100,
-    warm: Solution | None = None,
-) -> Solution:
-    """Solve from x until a step promises less than ``tolerance`` of the time.
+    warm: NLPSolution | None = None,
+) -> NLPSolution:
+    """Solve a program from a starting point.
 
-    tolerance: 1e-7, HiGHS's own, if less. near, warm: the start is good, and the first box is small.
+    Parameters
+    ----------
+    program : FreeFormNLP
+    x : Array, shape (n_variables,)
+        The starting point.
+    tolerance : float
+        The solve ends when a step predicts a reduction below this share of the time; at least 1e-7,
+        HiGHS's own tolerance.
+    near : float, optional
+        If given, the starting point is good and the first trust region is small.
+    iterations : int
+        Greatest number of steps.
+    warm : NLPSolution, optional
+        If given, as ``near``.
+
+    Returns
+    -------
+    NLPSolution
     """
-    value, jacobian, gradient = _linearised(program)
+    value, jacobian, gradient = _linearised(program.shape)
     nonlinear = np.concatenate(
-        [np.full(n, kind in _NONLINEAR) for kind, _, n in program.symbols.kinds] or [np.zeros(0, bool)]
+        [np.full(block.symbols.numel(), not block.linear) for block in program.equations.rows]
+        or [np.zeros(0, bool)]
     )
     tolerance = max(tolerance, 1e-7)
-    box = _BOX if near is None and warm is None else 0.1 * _BOX
+    radius = _RADIUS if near is None and warm is None else 0.1 * _RADIUS
     weight = 2.0
     p = program.parameters
-    rows = np.asarray(value(x, p)).ravel()
-    last: _Step | None = None
-    status, converged, iteration = "maximum iterations exceeded", False, 0
-    slopes, cost = _sparse(jacobian(x, p)), np.asarray(gradient(x, p)).ravel()
 
-    def judged(at: Array, weight: float) -> tuple[Array, Array, float]:
+    def linearised(x: Array, rows: Array) -> _Model:
+        return _Model(x, rows, _sparse(jacobian(x, p)), np.asarray(gradient(x, p)).ravel())
+
+    def judged(model: _Model, at: Array, weight: float) -> tuple[Array, Array, float]:
         """A point within its bounds, its rows and its merit."""
         at = np.clip(at, program.low, program.high)
         there = np.asarray(value(at, p)).ravel()
-        return at, there, float(cost @ at) + weight * _missed(program, there)
+        return at, there, float(model.cost @ at) + weight * _missed(program, there)
 
+    model = linearised(x, np.asarray(value(x, p)).ravel())
+    last: _Step | None = None
+    status, converged, iteration = "maximum iterations exceeded", False, 0
     for iteration in range(1, iterations + 1):  # noqa: B007
-        step = _linear_step(program, x, rows, slopes, cost, box, weight, nonlinear)
+        step = _linear_step(program, model, radius, weight, nonlinear)
         if isinstance(step, str):
             status = f"linear program: {step}"
             break
         last = step
-        now = _missed(program, rows)
-        promised = weight * now - step.merit
-        before = float(cost @ x) + weight * now
-        enough = promised <= tolerance * float(x[: program.task.n_segments].sum())
-        if (enough and now <= tolerance) or box < _SMALLEST:
+        now = _missed(program, model.rows)
+        predicted = weight * now - step.merit
+        before = float(model.cost @ model.x) + weight * now
+        enough = predicted <= tolerance * float(model.x[: program.task.n_segments].sum())
+        if (enough and now <= tolerance) or radius < _SMALLEST:
             status, converged = "solve succeeded", enough and now <= 1e-6
             break
         steepest = float(np.abs(step.row_multipliers[nonlinear]).max(initial=0.0))
         if enough and now > tolerance and steepest >= 0.99 * weight and weight < 1e4:
-            weight *= 4.0  # rows are missed for profit
+            weight *= 4.0  # violating rows is too cheap
             continue
-        trial, trial_rows, merit = judged(x + step.x, weight)
-        if merit > before - 0.5 * promised:
-            # second-order correction: the same slopes, the rows as the step has found them
-            bent = _linear_step(
-                program, x, trial_rows - slopes @ step.x, slopes, cost, box, weight, nonlinear
-            )
+        trial, trial_rows, merit = judged(model, model.x + step.x, weight)
+        if merit > before - 0.5 * predicted:
+            # second-order correction: the same slopes, with the rows at the end of the step
+            corrected_model = model._replace(rows=trial_rows - model.slopes @ step.x)
+            bent = _linear_step(program, corrected_model, radius, weight, nonlinear)
             if not isinstance(bent, str):
-                corrected = judged(x + bent.x, weight)
+                corrected = judged(model, model.x + bent.x, weight)
                 if corrected[2] < merit:
                     trial, trial_rows, merit = corrected
-        ratio = (before - merit) / promised if promised > 0.0 else -1.0
+        ratio = (before - merit) / predicted if predicted > 0.0 else -1.0
         if ratio > 1e-4:
-            x, rows = trial, trial_rows
-            slopes, cost = _sparse(jacobian(x, p)), np.asarray(gradient(x, p)).ravel()
+            model = linearised(trial, trial_rows)
         if ratio > 0.75:
-            box = min(2.0 * box, _LARGEST)
+            radius = min(2.0 * radius, _LARGEST)
         elif ratio < 0.25:
-            box = 0.4 * min(box, float(np.abs(step.x).max()))
+            radius = 0.4 * min(radius, float(np.abs(step.x).max()))
+    x, rows = model.x, model.rows
     if last is None:
-        return Solution(x, np.zeros(len(rows)), np.zeros(len(x)), False, status, iteration)
-    return Solution(x, last.row_multipliers, last.bound_multipliers, converged, status, iteration)
+        return NLPSolution(x, np.zeros(len(rows)), np.zeros(len(x)), False, status, iteration)
+    return NLPSolution(x, last.row_multipliers, last.bound_multipliers, converged, status, iteration)
 
 
-def _missed(program: Program, rows: Array) -> float:
-    """Sum of what the rows are missed by."""
+def _missed(program: FreeFormNLP, rows: Array) -> float:
+    """Sum of the rows' violations."""
     return float(
         np.maximum(program.row_low - rows, 0.0).sum() + np.maximum(rows - program.row_high, 0.0).sum()
     )
 
 
 def _linear_step(
-    program: Program,
-    x: Array,
-    rows: Array,
-    slopes: sparse.csr_matrix,
-    cost: Array,
-    box: float,
-    weight: float,
-    nonlinear: Array,
+    program: FreeFormNLP, model: _Model, radius: float, weight: float, nonlinear: Truths
 ) -> _Step | str:
-    """The best step within the box; every nonlinear row may be missed on either side at its price."""
+    """The best step within the trust region, or why there is none."""
+    x, rows, slopes, cost = model
+    if not (np.isfinite(rows).all() and np.isfinite(slopes.data).all()):
+        return "numbers out of range"
     equal = program.row_low == program.row_high
     below = np.flatnonzero(np.isfinite(program.row_low) & ~equal)
     above = np.flatnonzero(np.isfinite(program.row_high) & ~equal)
@@ -134,12 +163,13 @@ def _linear_step(
     n, m = len(x), len(priced)
     slack = sparse.csr_matrix((np.ones(m), (priced, np.arange(m))), shape=(len(rows), m))
     whole = sparse.hstack([slopes, slack, -slack], format="csr")
-    low, high = (program.row_low - rows) / box, (program.row_high - rows) / box
-    # kept rows may be missed by rounding, and a step that stays must remain possible
+    low, high = (program.row_low - rows) / radius, (program.row_high - rows) / radius
+    # rows that are kept may be violated by rounding; the zero step has to remain feasible
     low = np.where(is_priced, low, np.minimum(low, 0.0))
     high = np.where(is_priced, high, np.maximum(high, 0.0))
     sides = np.stack(
-        [np.maximum((program.low - x) / box, -1.0), np.minimum((program.high - x) / box, 1.0)], axis=1
+        [np.maximum((program.low - x) / radius, -1.0), np.minimum((program.high - x) / radius, 1.0)],
+        axis=1,
     )
     found = linprog(
         np.concatenate([cost, np.full(2 * m, weight)]),
@@ -157,22 +187,19 @@ def _linear_step(
     multipliers[above] -= found.ineqlin.marginals[: len(above)]
     multipliers[below] += found.ineqlin.marginals[len(above) :]
     bounds = -np.asarray(found.upper.marginals[:n]) - np.asarray(found.lower.marginals[:n])
-    return _Step(box * found.x[:n], box * float(found.fun), multipliers, bounds)
+    return _Step(radius * found.x[:n], radius * float(found.fun), multipliers, bounds)
 
 
-def _linearised(program: Program) -> tuple[Any, Any, Any]:
-    shape = program.shape
-    if shape not in _LINEARISED:
-        if len(_LINEARISED) >= 64:
-            _LINEARISED.clear()
-        nlp = program.symbols.nlp
-        point = [nlp["x"], nlp["p"]]
-        _LINEARISED[shape] = (
-            casadi.Function("rows", point, [nlp["g"]]),
-            casadi.Function("slopes", point, [casadi.jacobian(nlp["g"], nlp["x"])]),
-            casadi.Function("cost", point, [casadi.gradient(nlp["f"], nlp["x"])]),
-        )
-    return _LINEARISED[shape]
+@lru_cache(maxsize=64)
+def _linearised(shape: Shape) -> tuple[Any, Any, Any]:
+    """Functions of (x, parameters): the rows, their slopes, the slope of the cost."""
+    nlp = equations_of(shape).nlp
+    point = [nlp["x"], nlp["p"]]
+    return (
+        casadi.Function("rows", point, [nlp["g"]]),
+        casadi.Function("slopes", point, [casadi.jacobian(nlp["g"], nlp["x"])]),
+        casadi.Function("cost", point, [casadi.gradient(nlp["f"], nlp["x"])]),
+    )
 
 
 def _sparse(matrix: Any) -> sparse.csr_matrix:

@@ -229,7 +229,7 @@ def test_every_row_of_the_checker_holds_for_every_motion(kind: str) -> None:
 
 @pytest.mark.parametrize("kind", ["d", "k", "a", "r"])
 def test_checker_and_prover_pose_the_same_rows(kind: str) -> None:
-    """Written twice, by different formulas: the prover's are tight (test_free_form_bound)."""
+    """Written twice, by different formulas: the prover's are tight (test_rows_tight)."""
     problem = problem_of([[0.0], [1.0], [0.3]], 1.3, 2.0, 7.0, position=(-0.5, 2.0))
     checker = Relaxation(Claim(json.loads(json.dumps(certificate_of(problem, 1.0, [], horizon=9.0)))))
     rng = np.random.default_rng(7)

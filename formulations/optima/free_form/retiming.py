@@ -1,29 +1,56 @@
-"""Ruckig between given waypoint states: each segment's least time, exactly (Berscheid & Kroeger 2021).
+"""Retiming: each segment's least time between given waypoint states, exactly, by Ruckig.
 
-The waypoint states of a program on a coarse mesh are much better than its times; this takes them and
-lets the mesh go.
+The waypoint states of a program on a coarse mesh are much more accurate than its segment times. This
+keeps the states and computes the times without a mesh.
+
+References
+----------
+Berscheid & Kroeger 2021, "Jerk-limited real-time trajectory generation with arbitrary target states",
+Robotics: Science and Systems XVII.
 """
 
 from __future__ import annotations
 
+from dataclasses import dataclass
+
 import numpy as np
 import ruckig
 
-from formulations.optima.free_form.nlp.arcs import Arcs, Motion
+from formulations.optima.free_form.nlp.arcs import ArcMotion, Arcs
 from formulations.optima.free_form.nlp.assembly import least_times
-from formulations.optima.free_form.nlp.task import Task
+from formulations.optima.free_form.nlp.conditioned import ConditionedProblem
 from formulations.problem.arrays import Array
 from formulations.references.ruckig_ import first_line
 
 _PHASES = 9  # Ruckig's seven, and up to two that brake before them
-_OUT_OF_REACH = np.array([1e3, 1e4, 1e5])  # of displacement and time 1: velocity to jerk
-_INSIDE = 1.0 - 1e-9  # states that touch a limit are refused for rounding
+# limits of velocity, acceleration, jerk that no motion over displacement 1 in time 1 reaches
+_OUT_OF_REACH = np.array([1e3, 1e4, 1e5])
+_INSIDE = 1.0 - 1e-9  # of a limit: Ruckig refuses states on it, because of rounding
 
 
-def polished(task: Task, motion: Motion, *, by_speed: bool = False) -> Motion | str:
-    """The fastest motion through the states of ``motion`` at the waypoints, or why there is none.
+@dataclass(frozen=True)
+class Refusal:
+    """Why there is no motion."""
 
-    by_speed: pose it in units of top speeds, not of displacements; either has its own failures.
+    reason: str
+
+
+def retime(
+    task: ConditionedProblem, motion: ArcMotion, *, by_speed: bool = False
+) -> ArcMotion | Refusal:
+    """Compute the fastest motion through the waypoint states of a motion.
+
+    Parameters
+    ----------
+    task : ConditionedProblem
+    motion : ArcMotion
+    by_speed : bool
+        Pose the problem to Ruckig in units of top speeds in place of displacements. Ruckig fails on
+        some problems in either units.
+
+    Returns
+    -------
+    ArcMotion or Refusal
     """
     joints = list(motion.joints)
     states = {j: _kept_inside(task, j, arcs.states) for j, arcs in motion.joints.items()}
@@ -37,17 +64,17 @@ def polished(task: Task, motion: Motion, *, by_speed: bool = False) -> Motion | 
         ends = np.stack([states[j][k : k + 2] for j in joints])
         scale = float(motion.times[k])
         found = _segment(task, k, joints, ends, scale, float(least[k]), by_speed)
-        if isinstance(found, str):
+        if isinstance(found, Refusal):
             return found
         times[k], durations[:, k], tops[:, k] = found
-    return Motion(
+    return ArcMotion(
         times,
         {j: Arcs(int(task.order[j]), durations[i], tops[i], states[j]) for i, j in enumerate(joints)},
     )
 
 
-def _kept_inside(task: Task, j: int, states: Array) -> Array:
-    """States that leave room to bring the acceleration to zero: |v| + a^2 / 2J <= V, (S + 1, 2)."""
+def _kept_inside(task: ConditionedProblem, j: int, states: Array) -> Array:
+    """States (S + 1, 2) from which the acceleration can fall to zero: |v| + a^2 / 2J <= V."""
     limits = task.limits[:, :, j]
     # a waypoint between two segments keeps the limits of both
     v, a, jerk = np.minimum(
@@ -60,12 +87,18 @@ def _kept_inside(task: Task, j: int, states: Array) -> Array:
 
 
 def _segment(
-    task: Task, k: int, joints: list[int], ends: Array, scale: float, least: float, by_speed: bool
-) -> tuple[float, Array, Array] | str:
-    """Time, phases and tops (n, 9) of one segment.
+    task: ConditionedProblem,
+    k: int,
+    joints: list[int],
+    ends: Array,
+    scale: float,
+    least: float,
+    by_speed: bool,
+) -> tuple[float, Array, Array] | Refusal:
+    """Time, phases (n, 9) and tops (n, 9) of one segment.
 
-    Posed in units of its time and of each joint's own displacement, and without limits that are out of
-    reach in these units: Ruckig's tolerances are absolute.
+    Ruckig's tolerances are absolute. So the segment is posed in units of its time and of each joint's
+    own displacement, and limits that are out of reach in these units are lowered.
     """
     velocity, acceleration, jerk = task.limits[:, k, joints]
     distance = np.abs(task.displacements[k, joints])
@@ -84,7 +117,7 @@ def _segment(
     highest = limits.copy()
     if not by_speed:
         reach = np.minimum(limits, _OUT_OF_REACH[:, None])
-        # but what the states need they must have: |v| + a^2 / 2J <= V
+        # but the states themselves must be allowed: |v| + a^2 / 2J <= V
         reach[1] = np.maximum(reach[1], np.abs(a).max(axis=0) / _INSIDE)
         room = np.maximum(limits[0] - np.abs(v), 1e-300)
         reach[2] = np.maximum(reach[2], (a**2 / (2.0 * room)).max(axis=0) / _INSIDE)
@@ -96,10 +129,10 @@ def _segment(
     answer = ruckig.Trajectory(len(joints))
     try:
         result = ruckig.Ruckig(len(joints)).calculate(pose, answer)
-    except (ruckig.RuckigError, ValueError) as refusal:  # also a result that its enumeration lacks
-        return f"Ruckig refuses segment {k + 1}: {first_line(refusal)}"
+    except (ruckig.RuckigError, ValueError) as error:  # ValueError: a result its enumeration lacks
+        return Refusal(f"Ruckig refuses segment {k + 1}: {first_line(error)}")
     if result not in (ruckig.Result.Working, ruckig.Result.Finished):
-        return f"Ruckig refuses segment {k + 1}: {result.name}"
+        return Refusal(f"Ruckig refuses segment {k + 1}: {result.name}")
     seconds = float(answer.duration)
     phases, tops = np.zeros((2, len(joints), _PHASES))
     for i, (j, profile) in enumerate(zip(joints, answer.profiles[0], strict=True)):
@@ -110,5 +143,5 @@ def _segment(
         tops[i] *= length[i] / scale ** (3 if third else 2)
     phases[:, -1] += seconds - phases.sum(axis=1)
     if not (phases >= -1e-9 * seconds).all():
-        return f"Ruckig's phases of segment {k + 1} do not add up"
+        return Refusal(f"Ruckig's phases of segment {k + 1} do not add up")
     return seconds * scale, np.maximum(phases, 0.0) * scale, tops

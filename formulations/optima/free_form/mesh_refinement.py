@@ -1,8 +1,10 @@
 """The search for the fastest motion: even steps, waypoint states, arcs, finer meshes; the best is kept.
 
-Whatever a solver returns is assembled to a motion that passes the waypoints exactly, slowed down by
-the least factor that keeps its limits, and judged by the independent check. The first motion offered is
-stop and go, which needs no solver.
+Each round solves the program on even steps, takes the waypoint states of its solution, computes the
+segment times between them (``retiming``), and solves the program on free arcs from there. Whatever a
+solver returns is assembled to a motion that passes the waypoints exactly, slowed down by the least factor
+that keeps its limits, and judged by the independent check. The first motion is stop and go, which needs
+no solver.
 """
 
 from __future__ import annotations
@@ -16,23 +18,33 @@ import numpy as np
 from formulations.motion.trajectory import Trajectory
 from formulations.motion.verdict import Verdict, check
 from formulations.optima.free_form.nlp import ipopt, slp
-from formulations.optima.free_form.nlp.arcs import Motion
-from formulations.optima.free_form.nlp.assembly import trajectory
-from formulations.optima.free_form.nlp.program import Program, Solution
-from formulations.optima.free_form.nlp.task import Task
-from formulations.optima.free_form.polish import polished
-from formulations.optima.free_form.sensitivity import Sensitivity, sensitivity
-from formulations.optima.free_form.stop_and_go import stop_and_go
+from formulations.optima.free_form.nlp.arcs import ArcMotion
+from formulations.optima.free_form.nlp.assembly import assemble
+from formulations.optima.free_form.nlp.conditioned import ConditionedProblem
+from formulations.optima.free_form.nlp.program import FreeFormNLP, NLPSolution
+from formulations.optima.free_form.retiming import Refusal, retime
+from formulations.optima.free_form.sensitivity import Sensitivity, read_sensitivity
+from formulations.optima.free_form.stop_and_go import stop_and_go_motion
 
-ROUNDS = 4  # meshes, each half as fine again as the one before
-_GUARDS = 6  # solutions that may leave the position limits elsewhere before a mesh is given up
-_STRETCHES = 5
+ROUNDS = 4  # of meshes, each with half as many arcs again as the one before
+_GUARDS = 6  # solutions on one mesh that may leave the position limits, each in further places
+_STRETCHES = 10  # attempts, the last with a margin of 1e-5
 _LOOSE, _TIGHT = 1e-6, 1e-9
 
 
 @dataclass(frozen=True)
 class Stage:
-    """One step of the search: its motion's time [s], infinite if the check refused it, and why."""
+    """One step of the search.
+
+    Attributes
+    ----------
+    name : str
+    seconds : float [s]
+        Time of its motion, infinite if the check refused it.
+    status : str
+        Why the check refused it, or how the solver ended.
+    runtime : float [s]
+    """
 
     name: str
     seconds: float
@@ -41,34 +53,69 @@ class Stage:
 
 
 @dataclass(frozen=True)
-class Found:
-    """A motion the check has passed."""
+class VerifiedMotion:
+    """A motion that has passed the check, with the name of its stage."""
 
     name: str
-    motion: Motion
+    motion: ArcMotion
     trajectory: Trajectory
     verdict: Verdict
 
 
-class Search:
-    """All that was tried for one task, and the best of it."""
+class MeshRefinement:
+    """All that was tried for one problem, and the best of it.
 
-    def __init__(self, task: Task, solver: str, progress: Callable[[str, float], None] | None) -> None:
+    Attributes
+    ----------
+    best : VerifiedMotion or None
+    stages : list of Stage
+    sensitivity : Sensitivity or None
+    status : str
+        "ok", or how the solver ended on the last free arcs.
+    """
+
+    def __init__(
+        self, task: ConditionedProblem, solver: str, progress: Callable[[str, float], None] | None
+    ) -> None:
+        """Begin a search.
+
+        Parameters
+        ----------
+        task : ConditionedProblem
+        solver : str
+            "ipopt" or "highs".
+        progress : callable or None
+            Called as ``progress(stage, seconds)``.
+        """
         self.task, self.solver, self.progress = task, solver, progress
         self.solve = ipopt.solve if solver == "ipopt" else slp.solve
-        self.best: Found | None = None
+        self.best: VerifiedMotion | None = None
         self.stages: list[Stage] = []
         self.sensitivity: Sensitivity | None = None
-        self.solved: tuple[Program, Solution, float] | None = None
+        self.solved: tuple[FreeFormNLP, NLPSolution, float] | None = None
         self.guarded: frozenset[tuple[int, int]] = frozenset()
         self.second = 1.0
         self.status = "ok"
         self.clock = time.perf_counter()
 
-    def offer(self, name: str, motion: Motion | str, status: str = "") -> Found | None:
-        """Judge a motion; keep it if it is the best. None if the check refuses it."""
-        found, refusal = None, motion if isinstance(motion, str) else ""
-        if not isinstance(motion, str):
+    def offer(self, name: str, motion: ArcMotion | Refusal, status: str = "") -> VerifiedMotion | None:
+        """Judge a motion, and keep it if it is the best.
+
+        Parameters
+        ----------
+        name : str
+            Of the stage.
+        motion : ArcMotion or Refusal
+        status : str
+            How the solver ended.
+
+        Returns
+        -------
+        VerifiedMotion or None
+            None if the check refuses the motion.
+        """
+        found, refusal = None, motion.reason if isinstance(motion, Refusal) else ""
+        if not isinstance(motion, Refusal):
             found, refusal = self._judged(name, motion)
         seconds = np.inf if found is None else found.verdict.seconds
         now = time.perf_counter()
@@ -80,21 +127,29 @@ class Search:
             self.progress(name, seconds)
         return found
 
-    def _judged(self, name: str, motion: Motion) -> tuple[Found | None, str]:
+    def _judged(self, name: str, motion: ArcMotion) -> tuple[VerifiedMotion | None, str]:
         for attempt in range(_STRETCHES):
-            whole = trajectory(self.task, motion)
+            whole = assemble(self.task, motion)
             verdict = check(self.task.problem, whole, conditions=self.task.conditions)
             if verdict.feasible:
-                return Found(name, motion, whole, verdict), ""
+                return VerifiedMotion(name, motion, whole, verdict), ""
             if not (self.task.stretchable and verdict.position_kept and 1.0 < verdict.stretch < 2.0):
                 break
-            # breaks are rounded again, so that a little more may be needed
+            # assembly rounds the stretched breaks again, so that slightly more may be needed
             motion = motion.stretched(verdict.stretch * (1.0 + 10.0 ** (attempt - 14)))
         return None, verdict.faults[0]
 
     def run(self, mesh: int, tolerance: float) -> None:
-        """Search until a finer mesh gains less than a tenth of the tolerance."""
-        start = stop_and_go(self.task)
+        """Search until a finer mesh gains less than a tenth of the tolerance.
+
+        Parameters
+        ----------
+        mesh : int
+            Arcs per segment and joint to begin with.
+        tolerance : float
+            Relative, of the total time; one mesh only from 1e-3 on.
+        """
+        start = stop_and_go_motion(self.task)
         self.offer("stop and go", start)
         self.second = float(start.times.mean())
         if not self.task.group(2) and not self.task.group(3):
@@ -114,8 +169,19 @@ class Search:
         self._finish(tolerance)
 
     def run_timed(self, mesh: int) -> list[str]:
-        """The smoothest motion of a fixed time, or any; then notes say so."""
-        start = stop_and_go(self.task)
+        """Search for the smoothest motion that takes the given time, or else for any.
+
+        Parameters
+        ----------
+        mesh : int
+            Arcs per segment and joint.
+
+        Returns
+        -------
+        list of str
+            Notes, where the motion is not the smoothest.
+        """
+        start = stop_and_go_motion(self.task)
         self.second = float(start.times.mean())
         if not self.task.group(2) and not self.task.group(3):
             self.offer("steady", start)
@@ -130,45 +196,53 @@ class Search:
         return ["not the smoothest motion: no solution of that program was found"]
 
     def _fastest_slowed(self, mesh: int) -> None:
-        """The fastest motion slowed down to the time asked for; other conditions may refuse it."""
+        """Slow the fastest motion down to the given time; it may violate other conditions."""
         task = self.task
         asked = replace(task.conditions, total=None, passage={})
-        inner = Search(Task(task.problem, asked), self.solver, None)
+        free = ConditionedProblem(task.problem, asked)
+        inner = MeshRefinement(free, self.solver, None)
         inner.run(mesh, 1e-3)
         if inner.best is not None:
             motion = inner.best.motion
             factor = task.times[task.n_segments] / float(motion.times.sum())
             self.offer("fastest, slowed down", motion.stretched(factor))
 
-    def _round(self, start: Motion, arcs: int, tolerance: float) -> None:
-        """Coarse mesh -> states at the waypoints -> arcs."""
-        # no stretch mends what a loose solution leaves where times or end velocities are given
+    def _round(self, start: ArcMotion, arcs: int, tolerance: float) -> None:
+        """One round: even steps, waypoint states, free arcs."""
+        # where times or end velocities are given, slowing down cannot correct a loose solution
         digits = _LOOSE if self.task.stretchable else _TIGHT
         coarse = self._solved("even steps", start, arcs + arcs // 2, free=False, tolerance=1e-4)
         states = self._states("waypoint states", coarse)
-        # where Ruckig refuses, or its profiles are no good start, the even steps themselves
-        starts = [] if isinstance(states, str) else [(states, arcs)]
+        # where Ruckig refuses, or its motion is a bad start, the arcs start from the even steps
+        starts = [] if isinstance(states, Refusal) else [(states, arcs)]
         for first, n in [*starts, (coarse, arcs + arcs // 2)]:
             self._solved("arcs", first, n, free=True, tolerance=digits)
             best = np.inf if self.best is None else self.best.verdict.seconds
             if self.status == "ok" and self.stages[-1].seconds <= best * (1.0 + 1e-4):
                 break
 
-    def _states(self, name: str, motion: Motion) -> Motion | str:
-        """Ruckig between the states of a motion at the waypoints."""
-        states = polished(self.task, motion)
+    def _states(self, name: str, motion: ArcMotion) -> ArcMotion | Refusal:
+        """Retime a motion between its waypoint states."""
+        states = retime(self.task, motion)
         if self.offer(name, states) is None and not self.task.times:
-            other = polished(self.task, motion, by_speed=True)
-            if self.offer(name, other) is not None or isinstance(states, str):
+            other = retime(self.task, motion, by_speed=True)
+            if self.offer(name, other) is not None or isinstance(states, Refusal):
                 return other
         return states
 
     def _solved(
-        self, name: str, start: Motion, arcs: int, *, free: bool, tolerance: float, smooth: bool = False
-    ) -> Motion:
-        """Solve on one mesh; where the motion leaves the position limits, guard and solve again."""
+        self,
+        name: str,
+        start: ArcMotion,
+        arcs: int,
+        *,
+        free: bool,
+        tolerance: float,
+        smooth: bool = False,
+    ) -> ArcMotion:
+        """Solve on one mesh; where the motion leaves the position limits, pose rows (6) and solve again."""
         for _ in range(_GUARDS):
-            program = Program(
+            program = FreeFormNLP(
                 self.task,
                 (min(arcs, 4) if free else arcs, arcs),
                 free=free,
@@ -192,13 +266,13 @@ class Search:
             self._remember(program, solution, found.verdict.seconds)
         return motion
 
-    def _remember(self, program: Program, solution: Solution, seconds: float) -> None:
+    def _remember(self, program: FreeFormNLP, solution: NLPSolution, seconds: float) -> None:
         if self.solved is None or seconds < self.solved[2]:
             self.solved = (program, solution, seconds)
 
-    def _outside(self, motion: Motion) -> frozenset[tuple[int, int]]:
-        """Joints and segments where a motion leaves the position limits."""
-        whole = trajectory(self.task, motion)
+    def _outside(self, motion: ArcMotion) -> frozenset[tuple[int, int]]:
+        """Pairs (joint, segment) where a motion leaves the position limits."""
+        whole = assemble(self.task, motion)
         bounds = self.task.position_bounds
         middles = whole.breaks[:-1] + 0.5 * whole.durations
         passages = np.unique(whole.passage_times)
@@ -209,7 +283,7 @@ class Search:
         return frozenset((int(j), int(segment[i])) for i, j in np.argwhere(out))
 
     def _finish(self, tolerance: float) -> None:
-        """The best arcs to full accuracy, their waypoint states, and the multipliers."""
+        """Solve the best arcs to full accuracy, retime them, and read the multipliers."""
         if self.solved is None:
             return
         program, solution, _ = self.solved
@@ -223,4 +297,4 @@ class Search:
         if not self.task.times:
             self._states("waypoint states of the arcs", program.motion(solution.x))
         if self.best is not None and self.solved[2] <= self.best.verdict.seconds * (1.0 + 1e-3):
-            self.sensitivity = sensitivity(program, solution)
+            self.sensitivity = read_sensitivity(program, solution)

@@ -1,4 +1,4 @@
-"""What the solvers see of a problem: segments that take time, joints that move, limits in force."""
+"""The problem that the solvers see: segments that take time, joints that move, limits in force."""
 
 from __future__ import annotations
 
@@ -6,28 +6,32 @@ from dataclasses import dataclass
 from functools import cached_property
 
 import numpy as np
-from numpy.typing import NDArray
 
-from formulations.problem.arrays import Array
+from formulations.problem.arrays import Array, Indices
 from formulations.problem.conditions import Conditions
 from formulations.problem.problem import Problem
 
-_MARGIN = 1e-7  # share that limits are drawn in by where a motion cannot be slowed down
+_MARGIN = 1e-7  # limits are lowered by this share where a motion cannot be slowed down
 
 
 @dataclass(frozen=True)
-class Task:
-    """A problem under conditions, less what cannot matter.
+class ConditionedProblem:
+    """A problem under conditions, without the segments and joints that cannot matter.
 
-    Equal consecutive waypoints are one waypoint, unless the conditions set time between them; joints
-    that never move are left out. ``segments``: the problem's segments that are kept, (S,).
+    Equal consecutive waypoints count as one waypoint, unless the conditions set time between them.
+    Joints that never move are left out.
+
+    Attributes
+    ----------
+    problem : Problem
+    conditions : Conditions
     """
 
     problem: Problem
     conditions: Conditions
 
     @cached_property
-    def segments(self) -> NDArray[np.intp]:
+    def segments(self) -> Indices:
         """Indices of the segments of the problem that are kept, (S,)."""
         problem, asked = self.problem, self.conditions
         moves = np.abs(problem.displacements).max(axis=1) > 0.0
@@ -51,8 +55,8 @@ class Task:
         return np.flatnonzero(keep)
 
     @cached_property
-    def waypoint_of(self) -> NDArray[np.intp]:
-        """Where each waypoint of the problem is among those kept, (n_waypoints,)."""
+    def waypoint_of(self) -> Indices:
+        """Number of each waypoint of the problem among those kept, (n_waypoints,)."""
         kept = np.zeros(self.problem.n_segments, dtype=np.intp)
         kept[self.segments] = 1
         return np.asarray(np.concatenate([[0], np.cumsum(kept)]))
@@ -74,7 +78,7 @@ class Task:
         return np.diff(self.waypoints, axis=0)
 
     @cached_property
-    def order(self) -> NDArray[np.intp]:
+    def order(self) -> Indices:
         """Per joint the highest limited derivative: 1 velocity, 2 acceleration, 3 jerk, (dof,)."""
         limits = self.problem.limits
         return np.where(np.isfinite(limits.jerk), 3, np.where(np.isfinite(limits.acceleration), 2, 1))
@@ -87,15 +91,25 @@ class Task:
         return [int(j) for j in np.flatnonzero(moves)]
 
     def group(self, order: int) -> list[int]:
-        """Moving joints whose highest limited derivative is ``order``."""
+        """List the moving joints whose highest limited derivative is ``order``.
+
+        Parameters
+        ----------
+        order : int
+            1 velocity, 2 acceleration, 3 jerk.
+
+        Returns
+        -------
+        list of int
+        """
         return [j for j in self.moving if self.order[j] == order]
 
     @cached_property
     def limits(self) -> Array:
-        """Limits in force, (3, S, dof); an acceleration that jerk and velocity imply is filled in.
+        """Limits in force, (3, S, dof), with an acceleration limit wherever jerk is limited.
 
-        While the acceleration falls from A to zero at the jerk limit, before as after, the velocity
-        changes by A^2 / J, and it cannot change by more than 2 V: so A <= sqrt(2 V J).
+        While the acceleration rises from zero to A at the jerk limit and falls again, the velocity
+        changes by A^2 / J. It cannot change by more than 2 V, hence A <= sqrt(2 V J).
         """
         found = self.conditions.derivatives(self.problem)[:, self.segments]
         velocity, acceleration, jerk = found
@@ -103,7 +117,7 @@ class Task:
         open_ended = np.isinf(acceleration) & np.isfinite(jerk)
         found[1] = np.where(open_ended, implied, acceleration)
         if not self.stretchable:
-            # what a solver leaves to its tolerance cannot be mended by slowing down
+            # slowing down cannot correct an excess within the solver's tolerance
             found *= 1.0 - _MARGIN
             for k, given in ((0, 0), (-1, 1)):
                 found[0, k] = np.maximum(found[0, k], np.abs(self.ends[given]))
@@ -116,7 +130,7 @@ class Task:
 
     @cached_property
     def ends(self) -> Array:
-        """Velocities at start and end, (2, dof) [rad/s]."""
+        """Velocities at the start and the end, (2, dof) [rad/s]."""
         return self.conditions.end_velocities(self.problem)
 
     @cached_property
