@@ -19,6 +19,7 @@ import numpy as np
 from matplotlib.figure import Figure
 
 from compare.benchmark.objective import Objective, search_box
+from compare.benchmark.provenance import code_digest
 from compare.report.style import BLUE, GREY, ORANGE, PURPLE, VERMILION, styled
 from compare.screen import table
 from compare.studies.origin_shift import COORDINATES, seen_in
@@ -201,7 +202,7 @@ def _run(
     hi: Array,
 ) -> BiasRun:
     entry = algorithm(swarm)
-    result = minimise(entry.function, f, lo, hi, budget=budget, seed=seed, **entry.parameters)
+    result = minimise(entry.search(), f, lo, hi, budget=budget, seed=seed, **entry.parameters)
     error = None if result.x is None else result.fitness
     return BiasRun(task, place, swarm, entry.versions, seed, budget, error, result.status.value)
 
@@ -328,12 +329,16 @@ def calls(
     optima = {case: family_optimum(problem).seconds for case, problem in problems.items()}
     found: list[Call] = []
     for swarm in swarms:
-        found += [(on_function, name, swarm, seeds, budget) for name in functions]
-        found += [(on_arm, case, problems[case], optima[case], swarm, seeds, budget) for case in cases]
+        code = code_digest(swarm)
+        found += [(code, on_function, name, swarm, seeds, budget) for name in functions]
+        found += [
+            (code, on_arm, case, problems[case], optima[case], swarm, seeds, budget) for case in cases
+        ]
     return found
 
 
-def _compute(function: Callable[..., list[BiasRun]], *arguments: Any) -> list[BiasRun]:
+def _compute(code: str, function: Callable[..., list[BiasRun]], *arguments: Any) -> list[BiasRun]:
+    """Run a call; the digest of the swarm's code only tells it from a call of other code."""
     return function(*arguments)
 
 

@@ -202,8 +202,12 @@ def calls(count: int, seed: int, tolerance: float, solver: str, gap: float) -> l
         Random problems.
     seed : int
         Seed of the random problems.
-    tolerance, solver, gap
-        As ``answered`` takes them.
+    tolerance : float
+        Relative tolerance of the motion.
+    solver : str
+        ``ipopt`` or ``highs``.
+    gap : float
+        Relative gap at which the bound is good enough.
 
     Returns
     -------

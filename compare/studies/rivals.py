@@ -77,8 +77,10 @@ def calls(names: Sequence[str], count: int, points: int, evaluations: int) -> li
         Keys of PACKAGES.
     count : int
         Random problems.
-    points, evaluations
-        As ``set_beside`` takes them.
+    points : int
+        Control points per segment for Drake.
+    evaluations : int
+        Splines that Drake may try.
 
     Returns
     -------

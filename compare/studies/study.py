@@ -20,6 +20,7 @@ import math
 from collections.abc import Callable, Iterable, Iterator, Sequence
 from concurrent.futures import ProcessPoolExecutor
 from dataclasses import asdict, dataclass, fields
+from functools import cache
 from pathlib import Path
 from typing import Any, ClassVar, Generic, Protocol, TypeVar, get_type_hints
 
@@ -42,6 +43,7 @@ class IsDataclass(Protocol):
 
 R = TypeVar("R", bound=IsDataclass)
 Call = tuple[Any, ...]
+_PACKAGES = ("formulations", "metaheuristics", "compare")
 
 # studies that the report shows if they are there: title, what the picture says
 STUDIES = {
@@ -141,8 +143,8 @@ def run(
         The workers; if left out, the calls run one after the other in this process, as a measurement
         of time needs it.
     resume : bool
-        Keep the calls that an earlier run in this folder has finished, where arguments and versions
-        are the same.
+        Keep the calls that an earlier run in this folder has finished, where arguments, versions and
+        code are the same.
 
     Returns
     -------
@@ -207,9 +209,17 @@ def _facts(summary: Any) -> dict[str, Any]:
 
 
 def _key(study: Study[Any], call: Call) -> str:
-    """What tells a call from another, with the versions that it ran with."""
-    text = "\n".join([*map(_plain, (study.compute, *call)), versions_text()])
+    """What tells a call from another, with the versions and the code that it ran with."""
+    text = "\n".join([*map(_plain, (study.compute, *call)), versions_text(), _code()])
     return hashlib.sha256(text.encode()).hexdigest()[:16]
+
+
+@cache
+def _code() -> str:
+    """Digest of the source of the three packages: rows of other code are not mixed in."""
+    root = Path(__file__).parents[2]
+    files = [path for name in _PACKAGES for path in sorted((root / name).rglob("*.py"))]
+    return hashlib.sha256(b"".join(path.read_bytes() for path in files)).hexdigest()
 
 
 def _plain(part: Any) -> str:

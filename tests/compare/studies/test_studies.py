@@ -100,6 +100,12 @@ def test_zero_moved_away_changes_nothing_for_pso_and_all_for_whales() -> None:
     assert "whale" in bias.as_text(rows, summary)
 
 
+def test_a_plug_in_that_ends_its_process_costs_a_row_and_nothing_else() -> None:
+    rows = bias.on_function("sphere", "hostile:crasher", 1, 60)
+    assert [row.status for row in rows] == ["exited"] * 3
+    assert len(bias.calls(["sphere"], [], ["hostile:crasher", "pso"], 1, 60)) == 2
+
+
 def test_a_planted_bias_is_measured() -> None:
     rows = [
         bias.BiasRun("f", place, "s", "", seed, 1, error * (1 + seed), "ok")

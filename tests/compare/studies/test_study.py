@@ -110,7 +110,7 @@ def test_without_resume_everything_is_made_again(tmp_path: Path) -> None:
     assert MADE == CALLS
 
 
-def test_rows_of_other_arguments_or_versions_are_not_mixed_in(
+def test_rows_of_other_arguments_versions_or_code_are_not_mixed_in(
     tmp_path: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
     run(STUDY, CALLS, folder=tmp_path)
@@ -118,10 +118,12 @@ def test_rows_of_other_arguments_or_versions_are_not_mixed_in(
     found = run(STUDY, [("a", 2), ("b", 1)], folder=tmp_path, resume=True)
     assert MADE == [("a", 2)]
     assert found.summary == {"rows": 3}
-    monkeypatch.setattr(module, "versions_text", lambda: "python=4")
-    MADE.clear()
-    run(STUDY, [("b", 1)], folder=tmp_path, resume=True)
-    assert MADE == [("b", 1)]
+    for what in ("versions_text", "_code"):
+        with monkeypatch.context() as other:
+            other.setattr(module, what, lambda: "another")
+            MADE.clear()
+            run(STUDY, [("b", 1)], folder=tmp_path, resume=True)
+            assert MADE == [("b", 1)], what
 
 
 def test_a_problem_in_a_call_is_told_by_its_name_and_what_it_is() -> None:
