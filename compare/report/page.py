@@ -229,7 +229,17 @@ class _Swarm:
             a = ALGORITHMS[name]
             return _Swarm(a.title, a.source, a.parameters, library, apart, a.group, a.shortfall)
         place, _, what = name.partition(":")
-        return _Swarm(f"{what} of {place}" if library else "plugged in", place, {}, library, apart)
+        title = f"{what} of {place}" if library else "plugged in"
+        return _Swarm(title, place, _parameters(row), library, apart)
+
+
+def _parameters(row: Row) -> dict[str, Any]:
+    """Parameters that a row states; none if they are not what `grade` writes."""
+    try:
+        found = json.loads(row.parameters)
+    except ValueError:
+        return {}
+    return found if isinstance(found, dict) else {}
 
 
 def _headline(
