@@ -5,16 +5,19 @@ from __future__ import annotations
 import csv
 import os
 import re
+import shutil
 import signal
 import subprocess
 import sys
 import time
+from dataclasses import replace
 from pathlib import Path
 
 import pytest
 from commands_run import ROOT, command
 from graded_runs import without_times
 
+from compare.benchmark.rows import RowStatus, csv_text
 from compare.benchmark.store import Store
 
 SMALL = ("--cases", "sr4c,cobot", "--swarms", "pso,whale", "--seeds", "2", "--budget", "200")
@@ -83,6 +86,29 @@ def test_the_report_can_be_drawn_again_from_its_rows(report: Path) -> None:
     done = command("report", str(report))
     assert done.returncode == 0, done.stderr
     assert (report / "index.html").read_text() == before
+
+
+@pytest.mark.slow
+def test_a_planted_line_is_a_fault_in_the_report_and_none_of_its_numbers_is_shown(
+    report: Path, tmp_path: Path
+) -> None:
+    folder = tmp_path / "report"
+    shutil.copytree(report, folder)
+    store = Store(folder)
+    planted = replace(
+        store.rows()[0], swarm="evil:swarm", seed=0, seconds=1.0, gap=-0.7, status=RowStatus.ok
+    )
+    with store.rows_file.open("a") as lines:
+        lines.write(csv_text([planted], header=False))
+    done = command("report", str(folder))
+    assert done.returncode == 0, done.stderr
+    for name in ("index.html", "report.md"):
+        text = (folder / name).read_text()
+        assert "evil:swarm" in text
+        assert "it states 1 s, its durations add up to" in text
+        assert "-70 %" not in text
+        assert ">-70<" not in text
+        assert "Stored rows that do not hold" in text
 
 
 @pytest.mark.slow
