@@ -135,6 +135,8 @@ def _family(climb: Climb) -> Outcome:
 
 
 def _family_lower(climb: Climb) -> Outcome:
+    if not climb.certify:
+        return Outcome.not_applicable("not asked for")
     if climb.optimum is None:
         return Outcome.not_applicable("there is no family optimum to start from")
     bound = family_bound(

@@ -1,4 +1,4 @@
-"""Run a swarm once and judge its motion: what it claims, whether that holds, what is left of it."""
+"""Run a swarm once and judge its motion: the claim, whether it keeps its limits, its verified time."""
 
 from __future__ import annotations
 

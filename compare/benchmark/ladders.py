@@ -39,11 +39,15 @@ class LadderRecord(TypedDict):
 
 
 def ladder_record(ladder: Ladder) -> LadderRecord:
-    """Return a climbed ladder as plain data.
+    """Return a climbed ladder as plain data, with what holds its fastest motion up.
 
     Parameters
     ----------
     ladder : Ladder
+
+    Returns
+    -------
+    LadderRecord
     """
     found = cast(LadderRecord, ladder.to_json())
     found["alone"] = [None if one is None else one.seconds for one in ladder.alone]
@@ -62,6 +66,11 @@ def checked_ladder_record(data: Any, path: Path) -> LadderRecord:
         What was read from a JSON file.
     path : Path
         The file, for the message.
+
+    Returns
+    -------
+    LadderRecord
+        The same data.
 
     Raises
     ------

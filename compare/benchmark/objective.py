@@ -1,9 +1,10 @@
 """Codings: how a swarm's vector becomes a motion, and what the swarm is told about it.
 
-published   each joint alone, durations of its own; infeasible = worst fitness; in the end the
-            longest time per segment over the joints (000, 001, 002)
-shared      one vector of durations for all joints; the same penalty
-stretched   one vector of durations; every shape is stretched exactly to feasibility first
+published   each joint alone, with durations of its own; infeasible = worst fitness; at the end the
+            longest time per segment over the joints (Wang 2025, Li 2022, Zhou 2025)
+shared      one vector of durations for all joints; infeasible = worst fitness
+stretched   one vector of durations for all joints; every shape is first stretched, exactly, until it is
+            feasible
 """
 
 from __future__ import annotations
@@ -21,15 +22,23 @@ CODINGS: dict[str, str] = {
     "stretched": "durations shared by all joints, stretched exactly to feasibility",
 }
 
-_SHORTEST, _LONGEST = 1e-3, 3.0  # the box, in units of the shortest feasible equal duration
+_SHORTEST, _LONGEST = 1e-3, 3.0  # times the shortest feasible duration of equally long segments
 
 
 def search_box(problem: Problem) -> tuple[Array, Array]:
-    """Least and greatest duration a swarm may try, each (n_segments,) [s].
+    """Return the least and the greatest duration of each segment that a swarm may try.
 
-    The unit is the shortest feasible duration if all segments take equally long, which is where the
-    papers start from (2 s each in 000 and 001, 4 s in 002). The papers print no box but 003's
-    (0 to 5 s for segments of about 1.7 s); the longest here is 3 units, the shortest 0.001.
+    Both are multiples of the shortest feasible duration of equally long segments: 0.001 and 3 times.
+    The papers start from equally long segments (2 s each in Wang 2025 and Li 2022, 4 s in Zhou 2025).
+    Only Lu 2024 prints a box: 0 to 5 s for segments of about 1.7 s.
+
+    Parameters
+    ----------
+    problem : Problem
+
+    Returns
+    -------
+    lo, hi : Array, shape (n_segments,) [s]
     """
     n = problem.n_segments
     unit = float(FAMILIES[problem.family].stretch(problem, np.ones((1, n)))[0])
@@ -40,15 +49,29 @@ def search_box(problem: Problem) -> tuple[Array, Array]:
 class Objective:
     """Total time of whole populations: (n, n_segments) [s] -> (n,) [s], infinite if infeasible.
 
-    stretch=False: the time as it stands, infeasible if any limit is broken. stretch=True: the time
-    after the exact stretch; only position limits, which no stretch mends, make a shape infeasible.
+    Parameters
+    ----------
+    problem : Problem
+    stretch : bool
+        False: the time of the candidate as it is, infeasible if it breaks any limit. True: its time
+        once it is stretched until it keeps the velocity, acceleration and jerk limits; only a shape
+        that leaves the position limits is infeasible, as no stretch changes the shape.
     """
 
     problem: Problem
     stretch: bool
 
     def __call__(self, durations: Array) -> Array:
-        """Fitness of a population."""
+        """Return the fitness of a population.
+
+        Parameters
+        ----------
+        durations : Array, shape (n, n_segments) [s]
+
+        Returns
+        -------
+        Array, shape (n,) [s]
+        """
         family = FAMILIES[self.problem.family]
         total = np.asarray(durations.sum(axis=1))
         factor = family.stretch(self.problem, durations)
@@ -62,7 +85,17 @@ class Objective:
         return total
 
     def durations(self, x: Array) -> Array:
-        """The durations a swarm's vector stands for, (n_segments,) [s]."""
+        """Return the durations that a swarm's vector stands for.
+
+        Parameters
+        ----------
+        x : Array, shape (n_segments,)
+            The vector.
+
+        Returns
+        -------
+        Array, shape (n_segments,) [s]
+        """
         if not self.stretch:
             return x
         factor = FAMILIES[self.problem.family].stretch(self.problem, x[None])[0]

@@ -84,6 +84,10 @@ def provenance_of(
     time_limit : float or None [s]
         Of a swarm in a process of its own. None: the swarm runs in this process if it is trusted, else
         in its own for at most `metaheuristics.entry.TIME_LIMIT`.
+
+    Returns
+    -------
+    Provenance
     """
     found = algorithm(swarm)
     if time_limit is None and not found.trusted:
@@ -106,6 +110,11 @@ def parameters_of(swarm: Algorithm, population: int) -> dict[str, Any]:
     ----------
     swarm : Algorithm
     population : int
+
+    Returns
+    -------
+    dict of str to Any
+        Keyword arguments for ``minimise``.
     """
     parameters = dict(swarm.parameters)
     if "population" in parameters:
@@ -119,7 +128,11 @@ def parameters_text(parameters: dict[str, Any]) -> str:
     Parameters
     ----------
     parameters : dict
-        What is no JSON stands there as its ``repr``.
+        A value that is no JSON is written as its ``repr``.
+
+    Returns
+    -------
+    str
     """
     return json.dumps(parameters, sort_keys=True, default=repr)
 
@@ -236,6 +249,11 @@ def problem_digest(problem: Problem) -> str:
     Parameters
     ----------
     problem : Problem
+
+    Returns
+    -------
+    str
+        12 hexadecimal digits.
     """
     limits = problem.limits
     parts = (problem.waypoints, limits.derivatives, limits.position)

@@ -155,6 +155,10 @@ class Row:
         bound : float or None [s]
         proof : BoundProof
             What stands behind it.
+
+        Returns
+        -------
+        Row
         """
         return replace(
             self,
@@ -175,6 +179,15 @@ class Row:
     @staticmethod
     def from_cells(cells: Mapping[str, str]) -> Row:
         """Parse the text of every column.
+
+        Parameters
+        ----------
+        cells : mapping of str to str
+            Text by column.
+
+        Returns
+        -------
+        Row
 
         Raises
         ------
@@ -199,6 +212,10 @@ def relative_gap(seconds: float | None, bound: float | None) -> float | None:
     Parameters
     ----------
     seconds, bound : float or None [s]
+
+    Returns
+    -------
+    float or None
     """
     if seconds is None or not bound:
         return None
@@ -228,6 +245,11 @@ def csv_text(rows: Iterable[Row], *, header: bool = True) -> str:
     rows : iterable of Row
     header : bool
         Whether the line of column names comes first.
+
+    Returns
+    -------
+    str
+        Whole lines.
     """
     buffer = io.StringIO()
     writer = csv.writer(buffer, lineterminator="\n")
@@ -287,6 +309,10 @@ def cell_text(value: object) -> str:
     Parameters
     ----------
     value : str, int, float, bool, tuple of float or None
+
+    Returns
+    -------
+    str
 
     Raises
     ------

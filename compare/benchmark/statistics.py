@@ -87,6 +87,10 @@ def median(values: Sequence[float]) -> float | None:
     Parameters
     ----------
     values : sequence of float
+
+    Returns
+    -------
+    float or None
     """
     return float(np.median(values)) if len(values) else None
 
@@ -113,16 +117,24 @@ def gaps_of(rows: Iterable[Row]) -> list[float]:
     Parameters
     ----------
     rows : iterable of Row
+
+    Returns
+    -------
+    list of float
     """
     return [row.gap for row in rows if row.gap is not None]
 
 
 def times_of(rows: Iterable[Row]) -> list[float]:
-    """Return the times of the rows that have a verified motion [s].
+    """Return the times of the rows that have a verified motion.
 
     Parameters
     ----------
     rows : iterable of Row
+
+    Returns
+    -------
+    list of float [s]
     """
     return [row.seconds for row in rows if row.seconds is not None]
 

@@ -37,7 +37,22 @@ class Settings:
 
     @staticmethod
     def from_json(data: Any) -> Settings:
-        """Parse plain data. Raises ValueError if an entry is missing or of another type."""
+        """Parse plain data.
+
+        Parameters
+        ----------
+        data : object
+            What was read from JSON.
+
+        Returns
+        -------
+        Settings
+
+        Raises
+        ------
+        ValueError
+            If an entry is missing or of another type.
+        """
         if not isinstance(data, dict):
             raise ValueError("not a table")
         cases = data.get("cases")

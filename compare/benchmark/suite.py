@@ -12,18 +12,18 @@ from metaheuristics import ALGORITHMS
 
 @dataclass(frozen=True)
 class Budget:
-    """Population and number of iterations after the first population."""
+    """Size of a search: its population, and how many iterations follow the first population."""
 
     population: int
     iterations: int
 
     @property
     def evaluations(self) -> int:
-        """Every evaluation counts, the first population too."""
+        """Number of evaluations; those of the first population count too."""
         return self.population * (self.iterations + 1)
 
 
-# 000 Table 7; 001 sec. 3; 002 sec. 5.2; 004 sec. 3.2; 003 sec. 3.2
+# Wang 2025, Table 7; Li 2022, sec. 3; Zhou 2025, sec. 5.2; Zhang 2025, sec. 3.2; Lu 2024, sec. 3.2
 PAPER_BUDGETS: dict[str, Budget] = {
     "sr4c": Budget(50, 50),
     "bagging": Budget(20, 200),
@@ -37,7 +37,7 @@ QUICK_BUDGET = Budget(20, 20)
 
 SEEDS = {"default": 5, "quick": 2, "full": 30}
 
-# what runs unless it is named: all of the papers and a few controls; whole rival libraries on demand
+# unless swarms are named, those of the papers and a few controls run; rival libraries only on demand
 QUICK_SWARMS = [
     "pso", "mipso", "mpso", "pso-zhang-2025", "sparrow", "issa", "whale", "whale-lu-2024", "random", "de",
 ]  # fmt: skip
@@ -47,7 +47,17 @@ RIVALS = ["lshade", "mealpy:OriginalPSO", "mealpy:OriginalWOA", "pymoo:PSO", "ne
 
 
 def swarms_of(size: str) -> list[str]:
-    """Names of the swarms of a default, quick or full run."""
+    """Return the names of the swarms of a run of this size.
+
+    Parameters
+    ----------
+    size : str
+        ``default``, ``quick`` or ``full``.
+
+    Returns
+    -------
+    list of str
+    """
     if size == "quick":
         return QUICK_SWARMS
     papers = [name for name, entry in ALGORITHMS.items() if entry.group != "controls"]
@@ -55,7 +65,7 @@ def swarms_of(size: str) -> list[str]:
 
 
 def quick_cases() -> list[str]:
-    """All but the B-splines, whose optimum takes longer than a quick run may."""
+    """Names of all cases but the B-splines, whose optimum takes longer than a quick run may."""
     return [case for case in CASES if not load(case).family.startswith("b-spline")]
 
 
@@ -69,7 +79,25 @@ def runs(
     evaluations: int | None = None,
     seconds: float | None = None,
 ) -> list[Run]:
-    """The runs of one comparison, in a fixed order. size: default, quick or full."""
+    """List the runs of one comparison, in a fixed order.
+
+    Parameters
+    ----------
+    size : str
+        ``default``, ``quick`` or ``full``; it decides whatever is None below.
+    cases, swarms, codings : list of str, optional
+        Names; all cases, all codings, and the swarms of the size if left out.
+    seeds : int, optional
+        Number of seeds.
+    evaluations : int, optional
+        Budget of each search.
+    seconds : float, optional [s]
+        Time limit of a search in a process of its own, for every swarm.
+
+    Returns
+    -------
+    list of Run
+    """
     listed = []
     for case in cases if cases is not None else CASES:
         budget = DEFAULT_BUDGET

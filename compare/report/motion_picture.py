@@ -1,8 +1,8 @@
-"""The arm of a case as a stick figure that moves, one small SVG.
+"""The arm of a case as a moving stick figure, in one small SVG.
 
-Two views of the same motion in true time, the tool's path and the waypoints in each. The animation is
-SMIL: it runs wherever a browser shows the picture, without a script; elsewhere, and for readers who
-have asked for less motion, the arm stands still at its first waypoint. All waypoints show as shadows.
+Two views show the same motion in true time, with the tool's path and the waypoints; shadows show the arm
+at each waypoint. The animation is SMIL, which browsers run without a script. Other programs, and browsers
+whose reader has asked for less motion, show the arm at its first waypoint.
 """
 
 from __future__ import annotations
@@ -22,7 +22,7 @@ _RATE = 25.0  # frames a second, of true time
 _FEWEST, _MOST = 24, 180  # frames
 _PANEL, _MARGIN, _TITLE, _FOOT = 360.0, 26.0, 50.0, 44.0  # px
 _PAUSE = 1.0  # s that the last frame stays
-# SMIL knows nothing of what readers prefer: what moves is hidden, what stands still is shown
+# SMIL cannot ask whether the reader prefers less motion: a style hides the moving arm then
 _CALM = (
     "<style>.still{display:none}@media (prefers-reduced-motion: reduce){.moving{display:none}"
     ".still{display:inline}}</style>"
@@ -31,18 +31,19 @@ _CALM = (
 
 @dataclass(frozen=True)
 class View:
-    """An orthographic view: what is to the right and what is up, two unit vectors."""
+    """An orthographic view, given by the unit vectors that point to the right and up on paper."""
 
     name: str
     right: Array
     up: Array
 
     def __call__(self, points: Array) -> Array:
-        """Points (..., 3) [m] on the paper, (..., 2) [m], the second coordinate down."""
+        """Project points (..., 3) [m] to the paper, (..., 2) [m]; the second coordinate points down."""
         return np.stack([points @ self.right, -(points @ self.up)], axis=-1)
 
 
 def _slanted(azimuth: float, elevation: float) -> View:
+    """The view of somebody who looks at the origin from this direction; angles in degrees."""
     a, e = np.deg2rad([azimuth, elevation])
     toward = np.array([np.cos(e) * np.cos(a), np.cos(e) * np.sin(a), np.sin(e)])
     right = np.array([-np.sin(a), np.cos(a), 0.0])
@@ -53,13 +54,33 @@ VIEWS = (_slanted(-55.0, 18.0), View("from above", np.array([1.0, 0, 0]), np.arr
 
 
 def arm_of(case: str) -> Arm | None:
-    """The arm of a case or of one of its variants, None if there is none."""
+    """Return the arm of a case or of one of its variants.
+
+    Parameters
+    ----------
+    case : str
+
+    Returns
+    -------
+    Arm or None
+        None if no arm is known.
+    """
     name = case.removesuffix("-corrected")
     return load_arm(name) if name in ARMS else None
 
 
 def skeleton(arm: Arm, joints: Array) -> Array:
-    """The arm as a chain of points, (..., 2 dof + 1, 3) [m]: each link along d, then along a."""
+    """Return the arm as a chain of points: each link goes along d first, then along a.
+
+    Parameters
+    ----------
+    arm : Arm
+    joints : Array, shape (..., dof) [rad]
+
+    Returns
+    -------
+    Array, shape (..., 2 dof + 1, 3) [m]
+    """
     frames = arm.chain.frames(joints)
     origin, axis = frames[..., :3, 3], frames[..., :3, 2]
     elbow = origin[..., :-1, :] + arm.chain.d[:, None] * axis[..., :-1, :]
@@ -68,17 +89,50 @@ def skeleton(arm: Arm, joints: Array) -> Array:
 
 
 def fastest_spline(case: str, problem: Problem, durations: Array) -> str | None:
-    """The optimum of a case's family, durations (n_segments,) [s], as an SVG; None without an arm."""
+    """Draw the optimum of a case's spline family as an animated SVG.
+
+    Parameters
+    ----------
+    case : str
+    problem : Problem
+        The problem of the case.
+    durations : Array, shape (n_segments,) [s]
+        Durations of the optimum.
+
+    Returns
+    -------
+    str or None
+        The text of the SVG; None if no arm is known for the case.
+    """
     arm = arm_of(case)
     if arm is None:
         return None
     trajectory = FAMILIES[problem.family].trajectory(problem, durations)
     title = f"{arm.title}: fastest {problem.family} spline, {trajectory.seconds:.4f} s"
-    return motion_picture(arm, trajectory, title)
+    return draw_motion_picture(arm, trajectory, title)
 
 
-def motion_picture(arm: Arm, trajectory: Trajectory, title: str) -> str:
-    """A motion of an arm as an animated SVG. trajectory: joints of the arm [rad]."""
+def draw_motion_picture(arm: Arm, trajectory: Trajectory, title: str) -> str:
+    """Draw a motion of an arm as an animated SVG.
+
+    Parameters
+    ----------
+    arm : Arm
+    trajectory : Trajectory
+        The motion of all its joints [rad].
+    title : str
+        The line above the picture.
+
+    Returns
+    -------
+    str
+        The text of the SVG.
+
+    Raises
+    ------
+    InputError
+        If the motion has another number of joints than the arm.
+    """
     if trajectory.dof != arm.dof:
         raise InputError(f"motion picture: {trajectory.dof} joints for {arm.dof} of {arm.name}")
     count = int(np.clip(np.ceil(_RATE * trajectory.seconds), _FEWEST, _MOST)) + 1
@@ -149,9 +203,7 @@ def motion_picture(arm: Arm, trajectory: Trajectory, title: str) -> str:
 
 
 def _fit(parts: Sequence[Array]) -> tuple[float, list[Array]]:
-    """Px per m so that every view fits its panel, and the least corner of each view so that it is
-    centred, (2,) [m] each.
-    """
+    """The scale [px/m] at which every view fits its panel, and the corner of each centred view [m]."""
     boxes = []
     for view in VIEWS:
         seen = np.concatenate([view(part).reshape(-1, 2) for part in parts])
@@ -161,7 +213,7 @@ def _fit(parts: Sequence[Array]) -> tuple[float, list[Array]]:
 
 
 def _clock(trajectory: Trajectory, width: float, total: float, scale: float) -> str:
-    """A bar that fills as time passes, the waypoints' times on it, and a length of 0.1 m or so."""
+    """A bar that fills as time passes, with the times of the waypoints, and the length of some 0.1 m."""
     y, left = _TITLE + _PANEL + 16.0, _MARGIN
     long = width - 2 * _MARGIN - 120.0
     end = trajectory.seconds
@@ -175,7 +227,7 @@ def _clock(trajectory: Trajectory, width: float, total: float, scale: float) -> 
     for time in trajectory.passage_times:
         x = left + long * float(time) / end
         parts.append(f'<path d="M{x:.1f} {y - 3}v10" stroke="{VERMILION}" stroke-width="1.5"/>')
-        # the ends have their times written, the others where there is room
+        # the times of both ends are written, and the others where there is room
         last = time == trajectory.passage_times[-1]
         if last or room <= x <= left + long - 50.0:
             words = f'fill="{GREY}" text-anchor="middle"'

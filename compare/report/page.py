@@ -29,9 +29,9 @@ from metaheuristics import ALGORITHMS, GROUPS, NOT_REPRODUCIBLE
 
 FIGURES = {
     "ladder": "Every bound and the best swarm results on one time axis.",
-    "gaps": "Gap of every seed; hollow marks: the motion, as claimed, breaks its limits.",
+    "gaps": "Gap of every seed. Hollow marks: the claimed motion breaks its limits.",
     "motion": "The best motion with its limits, and the best claim in the papers' coding (red).",
-    "split": "Where the time goes: from the certified bound on every motion up to a swarm's motion.",
+    "split": "Where the time goes, from the certified bound on every motion up to the motion of a swarm.",
     "convergence": "Gap against evaluations.",
 }
 
@@ -47,9 +47,9 @@ LIMITATIONS = [
     "TOPP-RA's times are those of a discretised path, with the stated grid error, and have no jerk "
     "limit. They are references, not bounds.",
     "Only joint limits count: no torques, no collisions, no Cartesian path.",
-    "Every stored row was judged again from its durations when this report was drawn. In the papers' "
-    "coding the claimed time of a motion that keeps its limits only once it is slowed down cannot be "
-    "judged again: its searches, joint by joint, are not stored.",
+    "Every stored row was judged again from its durations when this report was drawn. The claimed time of "
+    "a motion that breaks its limits cannot be judged again, as the searches of the single joints are not "
+    "stored.",
 ]
 
 

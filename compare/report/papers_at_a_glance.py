@@ -69,6 +69,10 @@ def papers_at_a_glance(
         By case.
     ladders : mapping of str to LadderRecord
         By case.
+
+    Returns
+    -------
+    list of PaperAtAGlance
     """
     found = [
         _line(key, data, known_times.get(data["paper"], ()), ladders.get(data["paper"]))

@@ -42,6 +42,11 @@ def styled(draw: Callable[P, Figure]) -> Callable[P, Figure]:
     ----------
     draw : callable
         Any function that returns a figure.
+
+    Returns
+    -------
+    callable
+        The same function; it draws in this style.
     """
 
     @wraps(draw)

@@ -1,4 +1,4 @@
-"""Best so far over every evaluation, exact to the row; and what a run leaves behind."""
+"""What a run leaves behind, and the archive that it is made of: the best so far at every evaluation."""
 
 from __future__ import annotations
 
@@ -14,9 +14,33 @@ from metaheuristics.driver.task import Array, Status
 class Result:
     """What one run found, by the driver's own count.
 
-    ``x`` (dim,) is the first point that reached ``fitness``; None and +inf if every value was
-    infinite.  ``trace_evaluations`` and ``trace_best`` (m,) hold one entry for each improvement,
-    and end at ``evaluations``.  Times are in seconds.
+    Parameters
+    ----------
+    x : Array or None, shape (dim,)
+        The first point that reached ``fitness``; None if every value was infinite.
+    fitness : float
+        The best value; +inf if every value was infinite.
+    evaluations : int
+        Evaluations of the objective.
+    trace_evaluations : NDArray[np.int64], shape (m,)
+        Evaluation at which each improvement was found; the last entry is ``evaluations``.
+    trace_best : Array, shape (m,)
+        Best value from there on.
+    status : Status
+        How the run ended.
+    note : str
+        The reason in one printable line; empty if the status is ``ok``.
+    seconds_algorithm, seconds_objective : float
+        Time spent in the algorithm and in the objective [s].
+    isolated : bool
+        Whether the algorithm ran in a process of its own (`apart`), where it could not reach the objective.
+
+    Examples
+    --------
+    >>> from metaheuristics import ALGORITHMS, minimise
+    >>> found = minimise(ALGORITHMS["random"].function, lambda x: x[:, 0], [0], [1], budget=100, seed=0)
+    >>> bool(found.trace_best[-1] == found.fitness), int(found.trace_evaluations[-1]), found.isolated
+    (True, 100, False)
     """
 
     x: Array | None
@@ -41,7 +65,15 @@ class Archive:
         self._trace: list[tuple[int, float]] = []
 
     def add(self, x: Array, fitness: Array) -> None:
-        """Count x (n, dim) with fitness (n,), in the order of its rows."""
+        """Count evaluations in the order of their rows.
+
+        Parameters
+        ----------
+        x : Array, shape (n, dim)
+            Points.
+        fitness : Array, shape (n,)
+            Their fitness, NaN excluded.
+        """
         first = int(fitness.argmin())
         if fitness[first] < self.fitness:
             before = np.minimum.accumulate(np.concatenate(([self.fitness], fitness[:first])))
@@ -50,8 +82,27 @@ class Archive:
             self.x, self.fitness = x[first].copy(), float(fitness[first])
         self.evaluations += len(x)
 
-    def result(self, status: Status, note: str, algorithm: float, objective: float) -> Result:
-        """Return all that was found; ``algorithm``, ``objective``: seconds spent in each."""
+    def result(
+        self, status: Status, note: str, algorithm: float, objective: float, *, isolated: bool
+    ) -> Result:
+        """Return all that was found.
+
+        Parameters
+        ----------
+        status : Status
+            How the run ended.
+        note : str
+            The reason.
+        algorithm, objective : float
+            Time spent in each [s].
+        isolated : bool
+            Whether the algorithm ran in a process of its own.
+
+        Returns
+        -------
+        Result
+            The result of the run.
+        """
         trace = list(self._trace)
         if not trace or trace[-1][0] < self.evaluations:
             trace.append((self.evaluations, self.fitness))
@@ -66,4 +117,5 @@ class Archive:
             note=note,
             seconds_algorithm=algorithm,
             seconds_objective=objective,
+            isolated=isolated,
         )

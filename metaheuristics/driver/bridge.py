@@ -1,14 +1,15 @@
-"""Turns an optimiser that calls its objective into a generator that is asked for its points.
+"""Makes a generator, which is asked for its points, of an optimiser that calls its objective.
 
-The optimiser runs in a thread; each call of its objective hands the points over and sleeps until the
-driver sends their fitness.  One side works at a time, so a run stays deterministic.
+The optimiser runs in a thread.  Each call of its objective hands the points over and sleeps until the driver
+sends their fitness.  One side works at a time, so that a run repeats itself.  An optimiser that calls its
+objective from several threads is served one call after the other.
 """
 
 from __future__ import annotations
 
 from collections.abc import Callable
 from queue import SimpleQueue
-from threading import Thread
+from threading import Lock, Thread
 from typing import Any, TypeAlias
 
 import numpy as np
@@ -18,19 +19,21 @@ from metaheuristics.driver.task import Array, BudgetSpent, Claim, Fault, Moves, 
 Call: TypeAlias = Callable[[Callable[[Array], Array]], Claim | None]
 """An optimiser: given f, (n, dim) -> (n,), it works until it has its answer."""
 
-PATIENCE = 5.0  # s that an optimiser may take to stop once its budget is gone
+PATIENCE = 5.0
+"""Time that an optimiser may take to stop once its budget is spent [s]."""
 
 
 class _Stop(BaseException):
-    """Unwinds the optimiser's thread; not an Exception, so that few handlers hold it up."""
+    """Ends the thread of the optimiser; not an Exception, so that few handlers catch it."""
 
 
-class _Hand:
-    """The optimiser's side: its thread, and the objective it sees."""
+class _Optimiser:
+    """The thread of the optimiser, and the objective that it sees."""
 
     def __init__(self, call: Call) -> None:
         self._call = call
         self._stopped = False
+        self._one_call = Lock()
         self.asked: SimpleQueue[tuple[str, Any]] = SimpleQueue()
         self.told: SimpleQueue[Array] = SimpleQueue()
         self.thread = Thread(target=self._work, daemon=True)
@@ -38,19 +41,20 @@ class _Hand:
     def _work(self) -> None:
         try:
             self.asked.put(("returned", self._call(self._f)))
-        except BaseException as error:  # carried over to the driver's side
+        except BaseException as error:  # raised again in the thread of the driver
             self.asked.put(("raised", error))
 
     def _f(self, x: Array) -> Array:
-        if not self._stopped:
-            self.asked.put(("x", x))
-            fitness = self.told.get()
+        with self._one_call:
             if not self._stopped:
-                return fitness
+                self.asked.put(("x", x))
+                fitness = self.told.get()
+                if not self._stopped:
+                    return fitness
         raise _Stop
 
     def stop(self) -> None:
-        """End the thread by raising out of its objective."""
+        """End the thread: its objective raises from now on."""
         self._stopped = True
         self.told.put(np.empty(0))
         self.thread.join(PATIENCE)
@@ -59,17 +63,29 @@ class _Hand:
 
 
 def inverted(task: Task, call: Call, *, endless: bool) -> Moves:
-    """Yield the points that ``call(f)`` evaluates, as it calls f; returns what it returns.
+    """Yield the points that an optimiser evaluates, as it calls its objective.
 
-    endless: it was not told its budget and is cut off there.  Otherwise calling f beyond the budget
-    is the fault `over-budget`.
+    Parameters
+    ----------
+    task : Task
+        Budget of the run.
+    call : Call
+        Starts the optimiser: ``call(f)`` works until it has its answer.
+    endless : bool
+        Whether the optimiser does not know its budget.  If so, it is stopped when the budget is spent.
+        If not, a call of f beyond the budget is the fault `Status.over_budget`.
+
+    Returns
+    -------
+    Moves
+        A generator; it returns what the optimiser returns.
     """
-    hand = _Hand(call)
-    hand.thread.start()
+    optimiser = _Optimiser(call)
+    optimiser.thread.start()
     spent = False
     try:
         while True:
-            kind, given = hand.asked.get()
+            kind, given = optimiser.asked.get()
             if kind == "returned":
                 return given
             if kind == "raised":
@@ -85,6 +101,6 @@ def inverted(task: Task, call: Call, *, endless: bool) -> Moves:
                     over = f"asked for {len(given)} evaluations with {len(last.fitness)} left"
                     raise Fault(Status.over_budget, over) from None
                 spent, fitness = True, last.fitness
-            hand.told.put(fitness)
+            optimiser.told.put(fitness)
     finally:
-        hand.stop()
+        optimiser.stop()

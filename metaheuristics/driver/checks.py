@@ -12,11 +12,28 @@ from metaheuristics.driver.archive import Archive
 from metaheuristics.driver.reason import reason, shown
 from metaheuristics.driver.task import Array, Fault, ObjectiveError, Status, TaskError
 
-ROUNDING = 1e-9  # relative: how far a claim may lie below what was evaluated
+ROUNDING = 1e-9
+"""How far a claim may lie below what was evaluated, relative."""
 
 
 def box(lo: ArrayLike, hi: ArrayLike) -> tuple[Array, Array]:
-    """Return both ends of the box as float arrays (dim,)."""
+    """Return both ends of the box as the driver's own arrays.
+
+    Parameters
+    ----------
+    lo, hi : ArrayLike, shape (dim,)
+        Ends, as the caller gave them.
+
+    Returns
+    -------
+    lower, upper : Array, shape (dim,)
+        Copies of the ends.
+
+    Raises
+    ------
+    TaskError
+        They are not finite, not in order, or not of one shape.
+    """
     lower, upper = np.array(lo, dtype=np.float64), np.array(hi, dtype=np.float64)
     if lower.ndim != 1 or lower.size == 0 or lower.shape != upper.shape:
         raise TaskError(f"lo and hi need one shape (dim,), got {lower.shape} and {upper.shape}")
@@ -29,7 +46,23 @@ def box(lo: ArrayLike, hi: ArrayLike) -> tuple[Array, Array]:
 
 
 def budget(evaluations: int) -> int:
-    """Return the budget as a whole number, at least one."""
+    """Return the budget as a whole number.
+
+    Parameters
+    ----------
+    evaluations : int
+        Any integer type.
+
+    Returns
+    -------
+    int
+        At least one.
+
+    Raises
+    ------
+    TaskError
+        It is no whole number, or less than one.
+    """
     try:
         whole = operator.index(evaluations)
     except TypeError:
@@ -40,7 +73,23 @@ def budget(evaluations: int) -> int:
 
 
 def rng(seed: int | np.random.SeedSequence) -> np.random.Generator:
-    """Return a generator that depends on the seed's value, not on what it spawned before."""
+    """Return a generator that depends on the value of the seed, not on what the seed spawned before.
+
+    Parameters
+    ----------
+    seed : int or numpy.random.SeedSequence
+        Non-negative, if a number.
+
+    Returns
+    -------
+    numpy.random.Generator
+        A new generator.
+
+    Raises
+    ------
+    TaskError
+        It is no seed.
+    """
     if isinstance(seed, np.random.SeedSequence):
         seed = np.random.SeedSequence(seed.entropy, spawn_key=seed.spawn_key, pool_size=seed.pool_size)
     elif not isinstance(seed, int | np.integer) or seed < 0:
@@ -49,14 +98,43 @@ def rng(seed: int | np.random.SeedSequence) -> np.random.Generator:
 
 
 def read_only(x: Array) -> Array:
-    """Return a copy that cannot be written to."""
+    """Return a copy that cannot be written to.
+
+    Parameters
+    ----------
+    x : Array, any shape
+        What is copied.
+
+    Returns
+    -------
+    Array, shape of x
+        The copy.
+    """
     copy = x.copy()
     copy.flags.writeable = False
     return copy
 
 
 def fitness(returned: ArrayLike, n: int) -> Array:
-    """Return f's values (n,) as the driver's own array, NaN replaced by +inf."""
+    """Return the values of the objective as the driver's own array.
+
+    Parameters
+    ----------
+    returned : ArrayLike, shape (n,)
+        What the objective returned.
+    n : int
+        Number of points that it was given.
+
+    Returns
+    -------
+    Array, shape (n,)
+        A copy in which +inf replaces NaN.
+
+    Raises
+    ------
+    ObjectiveError
+        The shape is another one, or a value is -inf.
+    """
     values = np.array(returned, dtype=np.float64)
     if values.shape != (n,):
         raise ObjectiveError(f"f returned shape {values.shape} for {n} points")
@@ -67,7 +145,25 @@ def fitness(returned: ArrayLike, n: int) -> Array:
 
 
 def population(yielded: object, lo: Array, hi: Array) -> Array:
-    """Return what an algorithm yielded as the driver's own floats (n, dim), n >= 1, or its `Fault`."""
+    """Return the points that an algorithm asks for as the driver's own array.
+
+    Parameters
+    ----------
+    yielded : object
+        What the algorithm yielded: anything.
+    lo, hi : Array, shape (dim,)
+        Ends of the box.
+
+    Returns
+    -------
+    Array, shape (n, dim)
+        A copy, n >= 1.
+
+    Raises
+    ------
+    Fault
+        It is no array of finite points of the box.
+    """
     try:
         array = np.asarray(yielded)
         if array.dtype.kind == "c":
@@ -87,7 +183,20 @@ def population(yielded: object, lo: Array, hi: Array) -> Array:
 
 
 def claim(returned: object, archive: Archive) -> None:
-    """Raise a `Fault` if a returned (x, fitness) is better than anything that was evaluated."""
+    """Compare what an algorithm claims with what was evaluated.
+
+    Parameters
+    ----------
+    returned : object
+        What the algorithm returned.  A tuple of two is a claim (x, fitness), anything else is none.
+    archive : Archive
+        What was evaluated.
+
+    Raises
+    ------
+    Fault
+        The fitness is better than anything that was evaluated, or no number.
+    """
     kind: type = type(returned)  # the true one, and the methods of a plain tuple: both can be faked
     pair = cast("tuple[object, ...]", returned)
     if not issubclass(kind, tuple) or tuple.__len__(pair) != 2:
@@ -104,6 +213,19 @@ def claim(returned: object, archive: Archive) -> None:
 
 
 def unchanged(theirs: Array, ours: Array) -> bool:
-    """Tell whether an array that was lent to an algorithm is still the same, bit by bit."""
+    """Tell whether an array that was lent to an algorithm is still the same, bit by bit.
+
+    Parameters
+    ----------
+    theirs : Array, any shape
+        The array that the algorithm had; it may have been made into anything.
+    ours : Array, any shape
+        A copy that it never saw.
+
+    Returns
+    -------
+    bool
+        Whether type, shape and content agree.
+    """
     same_kind = theirs.dtype == ours.dtype and theirs.shape == ours.shape
     return same_kind and theirs.tobytes() == ours.tobytes()

@@ -1,15 +1,14 @@
-"""The driver: one box, one budget, one archive, the same for every algorithm.
+"""The judge of all algorithms: one box, one budget, one archive, the same for every one of them.
 
-An algorithm is a generator function.  It yields a whole population ``x`` (n, dim) and is sent back
-its fitness (n,); +inf means infeasible.  It keeps no score: the answer is the driver's archive of
-what was evaluated, so no algorithm can report a point it did not pay for.
+An algorithm is a generator function.  It yields a whole population x (n, dim) and is sent its fitness (n,);
++inf means infeasible.  It keeps no score: the answer is the best of what the driver evaluated, so that no
+algorithm can report a point that it did not pay for.
 """
 
 from __future__ import annotations
 
 import inspect
 from collections.abc import Callable
-from dataclasses import replace
 from time import perf_counter
 from typing import TypeVar
 
@@ -45,15 +44,54 @@ def minimise(
     seed: int | np.random.SeedSequence,
     **parameters: object,
 ) -> Result:
-    """Run an algorithm on f over the box [lo, hi] for exactly ``budget`` evaluations.
+    """Run an algorithm on an objective over a box, for exactly ``budget`` evaluations.
 
-    ``lo``, ``hi`` (dim,), finite, lo < hi.  ``f`` maps (n, dim) to (n,).  A batch larger than what
-    is left of the budget is evaluated as far as it fits, row by row from the first.  The same
-    algorithm, f, box, budget, seed and parameters give the same result, times apart.
+    The same algorithm, objective, box, budget, seed and parameters give the same result to the last bit,
+    times apart.  Misbehaviour of the algorithm ends the run with a `Status` and a note, and keeps what was
+    found.
 
-    Misbehaviour of the algorithm ends the run with a `Status` and a note, and keeps what was
-    found.  Raises `TaskError` for a bad box, budget or seed, `ObjectiveError` for what f may not
-    return; an exception inside f, or an unknown parameter (TypeError), passes through.
+    Parameters
+    ----------
+    algorithm : Search
+        A generator function ``(task, **parameters)``: see `Task` for an example.  `apart` runs one in a
+        process of its own.
+    f : Objective
+        Maps points (n, dim) to fitness (n,), which is to be small; +inf or NaN marks an infeasible point.
+    lo, hi : ArrayLike, shape (dim,)
+        Ends of the box, finite, lo < hi.
+    budget : int
+        Evaluations.  A batch larger than what is left is evaluated as far as it fits, from its first row.
+    seed : int or numpy.random.SeedSequence
+        Fixes all random numbers.
+    **parameters : object
+        Parameters of the algorithm.
+
+    Returns
+    -------
+    Result
+        The best point, how it was approached, and how the run ended.
+
+    Raises
+    ------
+    TaskError
+        The box, budget or seed makes no task.
+    ObjectiveError
+        The objective returned something else than n floats above -inf.
+    TypeError
+        The algorithm has no such parameter.
+    Exception
+        Whatever the objective raises.
+    KeyboardInterrupt
+        The user interrupted.  (One that the algorithm raises itself is its fault.)
+
+    Examples
+    --------
+    >>> from metaheuristics import ALGORITHMS, minimise
+    >>> entry = ALGORITHMS["pso"]
+    >>> f = lambda x: ((x - 0.3) ** 2).sum(axis=1)
+    >>> found = minimise(entry.function, f, [-1, -1], [1, 1], budget=2000, seed=0, **entry.parameters)
+    >>> found.status, found.evaluations, found.x.round(3)
+    (<Status.ok: 'ok'>, 2000, array([0.3, 0.3]))
     """
     lower, upper = checks.box(lo, hi)
     budget = checks.budget(budget)
@@ -79,11 +117,11 @@ def minimise(
     if status is Status.ok and archive.x is None:
         status, note = Status.no_feasible_point, f"none of {budget} values was finite"
     seconds = run.seconds_algorithm, run.seconds_objective
-    return replace(archive.result(status, note, *seconds), isolated=type(algorithm) is Apart)
+    return archive.result(status, note, *seconds, isolated=type(algorithm) is Apart)
 
 
 class _Run:
-    """One algorithm at work: every entry into it and into f is timed, what comes back is checked."""
+    """One algorithm at work: its time and that of f are measured, and what it asks for is checked."""
 
     def __init__(
         self, archive: Archive, f: Objective, lo: Array, hi: Array, budget: int, interrupt: Interrupt
@@ -93,7 +131,7 @@ class _Run:
         self.seconds_algorithm = self.seconds_objective = 0.0
 
     def judged(self, start: Callable[[], Moves]) -> tuple[Status, str]:
-        """Run until the budget is spent or the algorithm commits a fault; status and note."""
+        """Run until the budget is spent or the algorithm commits a fault; return status and note."""
         moves: Moves | None = None
         status, note = Status.ok, ""
         try:
@@ -101,7 +139,7 @@ class _Run:
             self._steps(moves)
         except Fault as fault:
             status, note = fault.status, fault.note
-        finally:  # lets an adapter clean up, whatever passes through
+        finally:  # an adapter cleans up, whatever passes through
             if moves is not None:
                 try:
                     self._guarded(lambda: moves.close())
@@ -113,7 +151,7 @@ class _Run:
         return status, note
 
     def _steps(self, moves: Moves) -> None:
-        """Ask, evaluate, tell."""
+        """Ask, evaluate, tell, until the budget is spent."""
         yielded: object = self._guarded(lambda: next(moves))
         while True:
             left = self.budget - self.archive.evaluations
@@ -148,7 +186,7 @@ class _Run:
         raise Fault(Status.over_budget, f"asked for more than {self.budget} evaluations")
 
     def _guarded(self, enter: Callable[[], T]) -> T:
-        """Let the algorithm work until it yields; raises the `Fault` it commits, timed."""
+        """Let the algorithm work until it yields, and measure its time; raises the `Fault` that it commits."""
         started = perf_counter()
         try:
             try:

@@ -1,4 +1,4 @@
-"""What an algorithm is given, and the words that all files here share."""
+"""What an algorithm is given, and the words that all files of the driver share."""
 
 from __future__ import annotations
 
@@ -12,17 +12,17 @@ from numpy.typing import ArrayLike, NDArray
 
 Array: TypeAlias = NDArray[np.float64]
 Claim: TypeAlias = tuple[ArrayLike, float]
-"""(x, fitness): what an algorithm says is its best; the driver compares it with what it saw."""
+"""(x, fitness): what an algorithm says is its best; the driver compares it with what it evaluated."""
 Moves: TypeAlias = Generator[Array, Array, Any]
-"""What an algorithm is once started: yields x (n, dim), receives fitness (n,), may return a claim."""
+"""A running algorithm: yields points x (n, dim), receives their fitness (n,), may return a claim."""
 Search: TypeAlias = Callable[..., Moves]
-"""A generator function ``(task, *, parameters...) -> Moves``."""
+"""An algorithm: a generator function ``(task, *, parameters...) -> Moves``."""
 Objective: TypeAlias = Callable[[Array], ArrayLike]
-"""f: x (n, dim) -> fitness (n,); +inf (or NaN) marks an infeasible row."""
+"""f: points x (n, dim) -> fitness (n,); +inf (or NaN) marks an infeasible point."""
 
 
 class TaskError(ValueError):
-    """The box, budget or seed makes no task."""
+    """The box, the budget, the seed or a time limit makes no task; the message shows the value."""
 
 
 class ObjectiveError(ValueError):
@@ -30,7 +30,47 @@ class ObjectiveError(ValueError):
 
 
 class Status(StrEnum):
-    """How a run ended; anything but ``ok`` is the algorithm's doing, or an empty feasible set."""
+    """How a run ended.
+
+    Everything but ``ok`` and ``no_feasible_point`` is the algorithm's doing.
+
+    Attributes
+    ----------
+    ok
+        The budget is spent, and something feasible was found.
+    stopped_early
+        The algorithm returned before its budget was spent.
+    over_budget
+        It asked for more evaluations than its budget.
+    raised
+        It raised an exception.
+    exited
+        It called ``sys.exit``, or its process ended.
+    timed_out
+        It exceeded its time limit.
+    bad_message
+        Its process sent something that the driver of that process never sends.
+    wrong_shape
+        It asked for points that are not n points of dim coordinates.
+    out_of_box
+        It asked for a point outside the box.
+    not_finite
+        It asked for a point with a coordinate that is NaN or infinite.
+    changed_input
+        It wrote to the box, or to the fitness that it was sent.
+    false_fitness
+        It claims a fitness that is better than any that was evaluated, or is no number.
+    global_random
+        It drew from ``numpy.random`` or ``random``, and not from the generator of its task.
+    no_feasible_point
+        The budget is spent, and every fitness was infinite.
+
+    Examples
+    --------
+    >>> from metaheuristics import Status
+    >>> Status("timed-out") is Status.timed_out
+    True
+    """
 
     ok = "ok"
     stopped_early = "stopped-early"
@@ -49,7 +89,15 @@ class Status(StrEnum):
 
 
 class Fault(Exception):  # noqa: N818 (not of this program)
-    """An algorithm misbehaved; ends its run with this status and note."""
+    """An algorithm misbehaved; ends its run.
+
+    Parameters
+    ----------
+    status : Status
+        What it did.
+    note : str
+        One line for people.
+    """
 
     def __init__(self, status: Status, note: str) -> None:
         super().__init__(note)
@@ -58,10 +106,15 @@ class Fault(Exception):  # noqa: N818 (not of this program)
 
 
 class BudgetSpent(Exception):  # noqa: N818 (no error)
-    """Thrown into an algorithm with the last fitness (n,) when its budget is gone.
+    """Thrown into an algorithm when its budget is spent.
 
-    Most let it pass. One that knows its budget may catch it to return its claim; yielding again is
-    asking for more than the budget.
+    Most algorithms let it pass.  One that knows its budget may catch it and return its claim.  If it yields
+    again, it asks for more than its budget.
+
+    Parameters
+    ----------
+    fitness : Array, shape (n,)
+        Fitness of the last points, as far as the budget reached.
     """
 
     def __init__(self, fitness: Array) -> None:
@@ -71,10 +124,31 @@ class BudgetSpent(Exception):  # noqa: N818 (no error)
 
 @dataclass(frozen=True, eq=False)
 class Task:
-    """What an algorithm may know: the box, the random numbers, how much of the budget is gone.
+    """What an algorithm may know: the box, the random numbers, and how much of the budget is used.
 
-    ``lo``, ``hi`` (dim,) are read-only.  ``rng`` is the only source of randomness.  ``budget`` is in
-    evaluations; most algorithms need ``progress`` alone.
+    `minimise` makes it and hands it to the algorithm.
+
+    Parameters
+    ----------
+    lo, hi : Array, shape (dim,)
+        Ends of the box, read-only.
+    rng : numpy.random.Generator
+        The only source of random numbers.
+    budget : int
+        Evaluations of the run; most algorithms need `progress` alone.
+
+    Examples
+    --------
+    >>> from metaheuristics import minimise
+    >>> def shrinking(task, *, population=10):
+    ...     centre = task.sample(1)
+    ...     while True:
+    ...         width = (1 - task.progress) * (task.hi - task.lo) / 2
+    ...         x = task.clip(centre + width * task.rng.uniform(-1, 1, (population, task.dim)))
+    ...         fitness = yield x
+    ...         centre = x[[fitness.argmin()]]
+    >>> minimise(shrinking, lambda x: abs(x[:, 0]), [-1], [1], budget=200, seed=0).evaluations
+    200
     """
 
     lo: Array
@@ -94,9 +168,31 @@ class Task:
         return self._used() / self.budget
 
     def sample(self, n: int) -> Array:
-        """Draw n points (n, dim), uniform in the box."""
+        """Draw uniform points of the box.
+
+        Parameters
+        ----------
+        n : int
+            Number of points.
+
+        Returns
+        -------
+        Array, shape (n, dim)
+            Points.
+        """
         return self.lo + (self.hi - self.lo) * self.rng.random((n, self.dim))  # rounds to <= hi
 
     def clip(self, x: Array) -> Array:
-        """Return x (..., dim) with every coordinate moved to the nearest one in the box."""
+        """Move every coordinate that is outside the box to the nearest end of the box.
+
+        Parameters
+        ----------
+        x : Array, shape (..., dim)
+            Points.
+
+        Returns
+        -------
+        Array, shape (..., dim)
+            Points of the box.
+        """
         return np.minimum(np.maximum(x, self.lo), self.hi)

@@ -1,7 +1,12 @@
 """CMA-ES with restarts and growing populations (IPOP), by the library cmaes.
 
-Sources: Hansen 2016, "The CMA evolution strategy: a tutorial"; Auger & Hansen 2005 (restarts).  On the
-unit box, from a uniform mean with sigma = 0.3 of it, default population; a restart doubles it.
+It works on the unit box, from a uniform mean, with the default population; each restart doubles it.
+
+References
+----------
+Hansen N. (2016).  The CMA evolution strategy: a tutorial.  arXiv:1604.00772.
+
+Auger A., Hansen N. (2005).  A restart CMA evolution strategy with increasing population size.  Proc. CEC 2005.
 """
 
 from __future__ import annotations
@@ -13,8 +18,21 @@ from metaheuristics.libraries.shared import finite, seed_of
 
 
 def cma_es(task: Task, *, sigma: float = 0.3) -> Moves:
-    """CMA-ES, restarted until the budget is gone."""
-    import cmaes  # loads scipy.stats, which takes longer than the rest of the package
+    """Run CMA-ES, restarted until the budget is spent.
+
+    Parameters
+    ----------
+    task : Task
+        Box, random numbers, budget.
+    sigma : float
+        Initial step size on the unit box.
+
+    Returns
+    -------
+    Moves
+        Points to be evaluated, a batch at a time.
+    """
+    import cmaes  # here: it loads scipy.stats, which takes longer than the rest of this package
 
     cells = max(task.dim, 2)  # the library wants two; a second one is not used
     size: int | None = None

@@ -12,12 +12,43 @@ from metaheuristics.libraries.shared import finite, library, seed_of
 
 
 def find(name: str) -> Any:
-    """Return the class of this name. Raises KeyError."""
+    """Return an optimiser of mealpy.
+
+    Parameters
+    ----------
+    name : str
+        Name of its class.
+
+    Returns
+    -------
+    Any
+        The class.
+
+    Raises
+    ------
+    KeyError
+        There is none.
+    """
     return library("mealpy").get_all_optimizers(verbose=False)[name]
 
 
 def mealpy(name: str, task: Task, *, population: int = 50) -> Moves:
-    """Any optimiser of mealpy with its own defaults; its epochs are budget / population."""
+    """Run an optimiser of mealpy with its own defaults for budget / population epochs.
+
+    Parameters
+    ----------
+    name : str
+        Name of its class.
+    task : Task
+        Box, random numbers, budget.
+    population : int
+        Population size.
+
+    Returns
+    -------
+    Moves
+        Points to be evaluated, a batch at a time.
+    """
     kind = find(name)
     variables = library("mealpy").FloatVar(lb=task.lo.tolist(), ub=task.hi.tolist())
 

@@ -13,17 +13,59 @@ from metaheuristics.libraries.shared import finite, library, seed_of
 
 
 def lshade(task: Task, *, memory_size: int = 6) -> Moves:
-    """L-SHADE, the library's defaults, told its budget, and no stop by the spread of its points."""
+    """Run L-SHADE with the defaults of the library; it knows its budget, and never stops before.
+
+    Parameters
+    ----------
+    task : Task
+        Box, random numbers, budget.
+    memory_size : int
+        Size of its memory.
+
+    Returns
+    -------
+    Moves
+        Points to be evaluated, a batch at a time.
+    """
     return _search(task, "LSHADE", {"memory_size": memory_size, "x_tol": -1.0})
 
 
 def minion(name: str, task: Task) -> Moves:
-    """Any minimiser of minionpy, with its own defaults."""
+    """Run a minimiser of minionpy with its own defaults.
+
+    Parameters
+    ----------
+    name : str
+        Name of its class.
+    task : Task
+        Box, random numbers, budget.
+
+    Returns
+    -------
+    Moves
+        Points to be evaluated, a batch at a time.
+    """
     return _search(task, name, None)
 
 
 def find(name: str) -> Any:
-    """Return the minimiser of this name.  Raises AttributeError."""
+    """Return a minimiser of minionpy.
+
+    Parameters
+    ----------
+    name : str
+        Name of its class.
+
+    Returns
+    -------
+    Any
+        The class.
+
+    Raises
+    ------
+    AttributeError
+        There is none.
+    """
     found = getattr(library("minionpy"), name)
     if not issubclass(found, library("minionpy").MinimizerBase):
         raise AttributeError(f"{name} is no minimiser")

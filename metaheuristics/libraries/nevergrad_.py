@@ -11,12 +11,41 @@ from metaheuristics.libraries.shared import finite, library, seed_of
 
 
 def find(name: str) -> Any:
-    """Return the optimiser of this name.  Raises KeyError."""
+    """Return an optimiser of nevergrad.
+
+    Parameters
+    ----------
+    name : str
+        Its name in the registry of nevergrad.
+
+    Returns
+    -------
+    Any
+        The optimiser.
+
+    Raises
+    ------
+    KeyError
+        There is none.
+    """
     return library("nevergrad").optimizers.registry[name]
 
 
 def nevergrad(name: str, task: Task) -> Moves:
-    """Any optimiser of nevergrad, told its budget, one point at a time."""
+    """Run an optimiser of nevergrad, which knows its budget, one point at a time.
+
+    Parameters
+    ----------
+    name : str
+        Its name in the registry of nevergrad.
+    task : Task
+        Box, random numbers, budget.
+
+    Returns
+    -------
+    Moves
+        Points to be evaluated, a batch at a time.
+    """
     ng = library("nevergrad")
     box = ng.p.Array(init=(task.lo + task.hi) / 2, lower=task.lo, upper=task.hi)
     box.random_state = np.random.RandomState(seed_of(task))

@@ -15,7 +15,22 @@ FOLDER = "pymoo.algorithms.soo.nonconvex"
 
 
 def pymoo(name: str, task: Task, *, population: int = 50) -> Moves:
-    """Any optimiser of pymoo's single-objective ones, with its own defaults."""
+    """Run a single-objective optimiser of pymoo with its own defaults.
+
+    Parameters
+    ----------
+    name : str
+        Name of its class.
+    task : Task
+        Box, random numbers, budget.
+    population : int
+        Population size.
+
+    Returns
+    -------
+    Moves
+        Points to be evaluated, a batch at a time.
+    """
     evaluator = library("pymoo", "pymoo.core.evaluator").Evaluator(skip_already_evaluated=False)
     static = library("pymoo", "pymoo.problems.static").StaticProblem
     problem = library("pymoo", "pymoo.core.problem").Problem(
@@ -32,10 +47,26 @@ def pymoo(name: str, task: Task, *, population: int = 50) -> Moves:
 
 
 def find(name: str) -> Any:
-    """Return the class of this name. Raises AttributeError if there is none."""
+    """Return a single-objective optimiser of pymoo.
+
+    Parameters
+    ----------
+    name : str
+        Name of its class.
+
+    Returns
+    -------
+    Any
+        The class.
+
+    Raises
+    ------
+    AttributeError
+        There is none.
+    """
     folder = library("pymoo", FOLDER)
     for module in pkgutil.iter_modules(folder.__path__):
-        # read before it is imported: some modules want libraries that others do not
+        # its text is read before it is imported: some modules need libraries that others do not
         source = Path(folder.__path__[0], f"{module.name}.py")
         if source.exists() and f"class {name}(" in source.read_text("utf-8"):
             return getattr(library("pymoo", f"{FOLDER}.{module.name}"), name)

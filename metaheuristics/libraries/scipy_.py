@@ -1,9 +1,12 @@
-"""Optimisers of SciPy.
+"""Optimisers of SciPy, and scrambled quasi-random points.
 
-Differential evolution (Storn & Price 1997), dual annealing (Xiang et al. 1997), and from many random
-starts Nelder-Mead (1965) and SLSQP (Kraft 1988, finite differences), the last two on the unit box.
-Each starts anew when it thinks it is done, until the budget is gone.  And the quasi-random points of
-Sobol (1967), scrambled.
+Each optimiser starts again when it ends, until the budget is spent.  Nelder-Mead and SLSQP work on the unit
+box, from uniform starts.
+
+References
+----------
+Sobol I. (1967), `sobol`.  Storn R., Price K. (1997), `differential_evolution`.  Xiang Y. et al. (1997),
+`dual_annealing`.  Nelder J., Mead R. (1965), `nelder_mead`.  Kraft D. (1988), `slsqp`.
 """
 
 from __future__ import annotations
@@ -17,8 +20,10 @@ from metaheuristics.driver.bridge import inverted
 from metaheuristics.driver.task import Array, Moves, Task
 from metaheuristics.libraries.shared import finite
 
-STEP = 1.5e-8  # of a difference on the unit box: the root of the rounding error
-BLOCK = 1024  # Sobol points are balanced in powers of two
+STEP = 1.5e-8
+"""Step of a finite difference on the unit box: about the root of the rounding error."""
+BLOCK = 1024
+"""Sobol points that are drawn at once; they are balanced in powers of two."""
 
 
 def _optimize() -> Any:
@@ -29,7 +34,20 @@ def _optimize() -> Any:
 
 
 def sobol(task: Task, *, population: int = 50) -> Moves:
-    """Yield a scrambled Sobol sequence; batch size does not change the points."""
+    """Draw a scrambled Sobol sequence; the batch size does not change the points.
+
+    Parameters
+    ----------
+    task : Task
+        Box, random numbers, budget.
+    population : int
+        Points per batch.
+
+    Yields
+    ------
+    Array, shape (population, dim)
+        Points to be evaluated.
+    """
     points = _sobol_points(task)
     while True:
         z = np.array([next(points) for _ in range(population)])
@@ -47,7 +65,24 @@ def _sobol_points(task: Task) -> Iterator[Array]:
 def differential_evolution(
     task: Task, *, popsize: int = 15, strategy: str = "best1bin", tol: float = 1e-12
 ) -> Moves:
-    """DE with the library's own defaults, but whole generations at once, no early stop, no polish."""
+    """Run DE with the defaults of SciPy, but whole generations at once, no early stop, no polish.
+
+    Parameters
+    ----------
+    task : Task
+        Box, random numbers, budget.
+    popsize : int
+        Population as a multiple of the dimension.
+    strategy : str
+        Name of the mutation.
+    tol : float
+        Relative spread of the fitness at which it starts again.
+
+    Returns
+    -------
+    Moves
+        Points to be evaluated, a batch at a time.
+    """
     optimize = _optimize()
 
     def call(f: Callable[[Array], Array]) -> None:
@@ -69,7 +104,18 @@ def differential_evolution(
 
 
 def dual_annealing(task: Task) -> Moves:
-    """Generalised simulated annealing with local searches, the library's own defaults."""
+    """Run generalised simulated annealing with local searches, with the defaults of SciPy.
+
+    Parameters
+    ----------
+    task : Task
+        Box, random numbers, budget.
+
+    Returns
+    -------
+    Moves
+        Points to be evaluated, a batch at a time.
+    """
     optimize = _optimize()
 
     def call(f: Callable[[Array], Array]) -> None:
@@ -86,14 +132,40 @@ def dual_annealing(task: Task) -> Moves:
 
 
 def nelder_mead(task: Task, *, xatol: float = 1e-10, fatol: float = 1e-12) -> Moves:
-    """Simplices from uniform starts."""
+    """Run Nelder-Mead from uniform starts.
+
+    Parameters
+    ----------
+    task : Task
+        Box, random numbers, budget.
+    xatol, fatol : float
+        Size and spread of the simplex at which it starts again.
+
+    Returns
+    -------
+    Moves
+        Points to be evaluated, a batch at a time.
+    """
     return _from_many_starts(
         task, "Nelder-Mead", {"xatol": xatol, "fatol": fatol, "maxfev": task.budget}
     )
 
 
 def slsqp(task: Task, *, ftol: float = 1e-12) -> Moves:
-    """Sequential least squares programming from uniform starts; a gradient is one batch."""
+    """Run sequential quadratic programming from uniform starts; a gradient is one batch.
+
+    Parameters
+    ----------
+    task : Task
+        Box, random numbers, budget.
+    ftol : float
+        Progress at which it starts again.
+
+    Returns
+    -------
+    Moves
+        Points to be evaluated, a batch at a time.
+    """
     return _from_many_starts(task, "SLSQP", {"ftol": ftol}, gradient=True)
 
 
@@ -106,7 +178,7 @@ def _from_many_starts(
         def unit(z: Array) -> Array:
             return finite(f(task.clip(task.lo + (task.hi - task.lo) * z)))
 
-        last: dict[bytes, float] = {}  # a gradient starts from the value just found
+        last: dict[bytes, float] = {}  # a gradient uses the value that was found just before
 
         def value(z: Array) -> float:
             last.clear()

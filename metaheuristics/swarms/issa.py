@@ -1,12 +1,21 @@
-"""ISSA: sparrows and butterflies in one flock, weighted by how fast the best still falls.
+"""ISSA: sparrow and butterfly moves in one flock, weighted by how fast the best fitness falls.
 
-Source: seed paper 002 (Zhou 2025, UR5), section 4.2, eq. 12-15; 1000 sparrows, 50 iterations.
+References
+----------
+Zhou Y. (2025).  Trajectory optimization of manipulator based on improved sparrow algorithm.  Hans
+Publishers.  Section 4.2, eq. 12-15; 1000 sparrows, 50 iterations.
 
-Open, and taken so: how the weights enter (each individual makes the sparrow's move with the weight as
-probability, else a butterfly's; or, `blended`, the weighted sum of both steps); the
-window of eq. 13 (5 generations) and the threshold of eq. 14, which is printed as a fitness difference
-without a value: here a share of the best fitness, 1e-3.  The sensory modality of the butterflies grows
-once a generation.
+Printed, and how it is read
+---------------------------
+Eq. 8-11 are those of `metaheuristics.swarms.sparrow`.  These are open:
+
+eq. 13      The window of the mean change: 5 generations.
+eq. 14      The threshold is printed as a difference of fitness, without a value: here a share of the best
+            fitness, 1e-3.
+eq. 15      How the weights enter.  By default each individual makes the sparrow's move with the weight as
+            probability, else the butterfly's; ``blended`` adds both steps, weighted.
+
+The sensory modality of the butterflies grows once a generation.
 """
 
 from __future__ import annotations
@@ -35,14 +44,55 @@ def issa(
     threshold: float = 1e-3,
     blended: bool = False,
 ) -> Moves:
-    """ISSA in which each individual chooses its move, or, ``blended``, adds both steps weighted."""
+    """Run ISSA.
+
+    Parameters
+    ----------
+    task : Task
+        Box, random numbers, budget.
+    population : int
+        Number of individuals.
+    producers, scouts : float
+        Shares of the flock.
+    safety : float
+        Safety threshold ST of the sparrows.
+    p, c, a : float
+        Constants of the butterflies: `metaheuristics.swarms.butterfly.butterfly`.
+    window : int
+        Generations in the mean change (eq. 13).
+    threshold : float
+        Change, as a share of the best fitness, from which all moves are sparrow moves (eq. 14).
+    blended : bool
+        Add both steps, weighted, in place of a choice between them.
+
+    Yields
+    ------
+    Array, shape (m, dim)
+        Points to be evaluated.
+    """
     blend = Blend(task, Flock(task.sample(population)), scouts, (p, c, a), window, threshold)
     combine = blend.blended if blended else blend.chosen
     yield from forage(task, blend.flock, producers, scouts, safety, combine, blend.weigh)
 
 
 class Blend:
-    """The weight of the sparrow's move, and the butterfly's move beside it."""
+    """The weight of the sparrow move, and the butterfly move beside it.
+
+    Parameters
+    ----------
+    task : Task
+        Box, random numbers, budget.
+    flock : Flock
+        The flock, which `metaheuristics.swarms.sparrow.forage` moves.
+    scouts : float
+        Share of scouts in the flock.
+    butterfly : tuple[float, float, float]
+        Constants p, c, a of the butterflies.
+    window : int
+        Generations in the mean change (eq. 13).
+    threshold : float
+        Threshold as a share of the best fitness (eq. 14).
+    """
 
     def __init__(
         self,
@@ -54,7 +104,7 @@ class Blend:
         threshold: float,
     ) -> None:
         self.flock = flock
-        self.weight = 0.5  # step one of section 4.2
+        self.weight = 0.5  # section 4.2, step 1
         self._task = task
         self._p, self._c, self._a = butterfly
         n = len(flock.x)
@@ -69,19 +119,45 @@ class Blend:
         self._best = best
         if before is None:
             return
-        self._changes.append(abs(best - before) if isfinite(before) else inf)  # (12)
+        self._changes.append(abs(best - before) if isfinite(before) else inf)  # Zhou 2025, eq. 12
         self.weight = weight(list(self._changes), self._threshold * abs(best))
         self._c = grown(self._c, self._generations)
 
     def chosen(self, rows: Rows, moved: Array) -> Array:
-        """Give each row its sparrow's move with probability ``weight``, else a butterfly's."""
+        """Choose the sparrow move with probability ``weight``, else the butterfly move.
+
+        Parameters
+        ----------
+        rows : Rows, shape (m,)
+            The individuals that move.
+        moved : Array, shape (m, dim)
+            Their sparrow moves, in the box.
+
+        Returns
+        -------
+        Array, shape (m, dim)
+            What they do.
+        """
         sparrows = self._task.rng.random((len(rows), 1)) < self.weight
         return np.where(sparrows, moved, self._butterflies(rows))
 
     def blended(self, rows: Rows, moved: Array) -> Array:
-        """Add both steps, weighted."""
+        """Add both steps, weighted.
+
+        Parameters
+        ----------
+        rows : Rows, shape (m,)
+            The individuals that move.
+        moved : Array, shape (m, dim)
+            Their sparrow moves, in the box.
+
+        Returns
+        -------
+        Array, shape (m, dim)
+            What they do.
+        """
         w = self.weight
-        return self._task.clip(w * moved + (1 - w) * self._butterflies(rows))
+        return self._task.clip(w * moved + (1 - w) * self._butterflies(rows))  # Zhou 2025, eq. 15
 
     def _butterflies(self, rows: Rows) -> Array:
         flock = self.flock
@@ -92,8 +168,21 @@ class Blend:
 
 
 def weight(changes: list[float], threshold: float) -> float:
-    """Return the sparrow's weight: the mean change of the best over the threshold, 1 at most."""
-    smooth = sum(changes) / len(changes)  # (13)
+    """Return the weight of the sparrow move, Zhou 2025, eq. 13 and 14.
+
+    Parameters
+    ----------
+    changes : list[float]
+        Change of the best fitness in each generation of the window; inf if nothing was feasible before.
+    threshold : float
+        Mean change from which the weight is 1.
+
+    Returns
+    -------
+    float
+        The mean change over the threshold, at most 1.
+    """
+    smooth = sum(changes) / len(changes)  # Zhou 2025, eq. 13
     if smooth >= threshold:
         return 1.0 if smooth > 0 else 0.0
-    return smooth / threshold  # (14)
+    return smooth / threshold  # Zhou 2025, eq. 14

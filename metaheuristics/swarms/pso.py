@@ -1,66 +1,22 @@
-"""Particle swarm optimisation with a global best, and three published settings of its constants.
+"""PSO with three published settings of its constants.
 
-    v = w v + c1 r1 (p - x) + c2 r2 (g - x),   x = x + v
+References
+----------
+`pso`: Clerc M., Kennedy J. (2002).  The particle swarm: explosion, stability, and convergence in a
+multidimensional complex space.  IEEE Trans. Evolutionary Computation 6(1), 58-73.  With phi = 4.1 their
+constriction equals w = 0.7298, c1 = c2 = 1.49618.
 
-Sources: Kennedy & Eberhart 1995 (the form without w); Shi & Eberhart 1998 (inertia); Clerc &
-Kennedy 2002 (constants equal to constriction); as printed in seed paper 004, eq. 1-4, and seed
-paper 001, eq. 14.  Conventions the papers leave open are those of the package (`metaheuristics`).
+`pso_linear`: Shi Y., Eberhart R. (1998), printed as Zhang 2025, eq. 3-4, and Li 2022, eq. 14.
+
+`pso_1995`: Kennedy J., Eberhart R. (1995), printed as Zhang 2025, eq. 1-2.
+
+Step, bests and references in full: `metaheuristics.swarms.particles`.
 """
 
 from __future__ import annotations
 
-from collections.abc import Callable
-from typing import TypeAlias
-
-import numpy as np
-
-from metaheuristics.driver.task import Array, Moves, Task
-
-Factors: TypeAlias = Callable[[float], tuple[float, float, float]]
-"""Progress k/K in [0, 1] -> (w, c1, c2)."""
-
-CLAMP = 0.2  # largest |v|, as a share of hi - lo
-
-
-class Swarm:
-    """Positions x, velocities v, own bests p (n, dim each) and the global best g (dim,)."""
-
-    def __init__(self, task: Task, x: Array) -> None:
-        self._task = task
-        self._v_max = CLAMP * (task.hi - task.lo)
-        self.x = x
-        self.v = np.zeros_like(x)
-        self.p = x.copy()
-        self.p_fitness = np.full(len(x), np.inf)
-        self.g = x[0].copy()
-        self.g_fitness = np.inf
-
-    def remember(self, fitness: Array) -> None:
-        """Keep in p and g what is better at x, given its fitness (n,); the first found stays."""
-        better = fitness < self.p_fitness
-        np.copyto(self.p, self.x, where=better[:, None])
-        np.copyto(self.p_fitness, fitness, where=better)
-        i = fitness.argmin()
-        if fitness[i] < self.g_fitness:
-            self.g, self.g_fitness = self.x[i].copy(), float(fitness[i])
-
-    def move(self, w: float, c1: float | Array, c2: float | Array) -> None:
-        """Take one synchronous step with inertia w, own factor c1 and social factor c2.
-
-        The factors are numbers, or one for each particle (n, 1).
-        """
-        r1, r2 = self._task.rng.random((2, *self.x.shape))
-        v = w * self.v + c1 * r1 * (self.p - self.x) + c2 * r2 * (self.g - self.x)  # 004 (1), (3)
-        self.v = np.minimum(np.maximum(v, -self._v_max), self._v_max)
-        self.x = self._task.clip(self.x + self.v)  # 004 (2)
-
-
-def fly(task: Task, x: Array, factors: Factors) -> Moves:
-    """Fly a swarm from x (n, dim) at rest, with factors that follow the progress."""
-    swarm = Swarm(task, x)
-    while True:
-        swarm.remember((yield swarm.x))
-        swarm.move(*factors(task.progress))
+from metaheuristics.driver.task import Moves, Task
+from metaheuristics.swarms.particles import fly, linear_inertia
 
 
 def pso(
@@ -71,7 +27,22 @@ def pso(
     c1: float = 1.49618,
     c2: float = 1.49618,
 ) -> Moves:
-    """Constant factors; the defaults are constriction's (Clerc & Kennedy 2002, phi = 4.1)."""
+    """Run PSO with constant factors.
+
+    Parameters
+    ----------
+    task : Task
+        Box, random numbers, budget.
+    population : int
+        Number of particles.
+    w, c1, c2 : float
+        Inertia, own factor, social factor.
+
+    Yields
+    ------
+    Array, shape (population, dim)
+        Points to be evaluated.
+    """
     yield from fly(task, task.sample(population), lambda k: (w, c1, c2))
 
 
@@ -84,16 +55,43 @@ def pso_linear(
     c1: float = 2.0,
     c2: float = 2.0,
 ) -> Moves:
-    """Linearly decreasing inertia (004 eq. 3-4, 001 eq. 14)."""
+    """Run PSO with linearly decreasing inertia.
+
+    Parameters
+    ----------
+    task : Task
+        Box, random numbers, budget.
+    population : int
+        Number of particles.
+    w_max, w_min : float
+        Inertia at the start and at the end.
+    c1, c2 : float
+        Own factor, social factor.
+
+    Yields
+    ------
+    Array, shape (population, dim)
+        Points to be evaluated.
+    """
     x = task.sample(population)
-    yield from fly(task, x, lambda k: (linear_inertia(k, w_max, w_min), c1, c2))
+    yield from fly(task, x, lambda k: (linear_inertia(k, w_max, w_min), c1, c2))  # Zhang 2025, eq. 3-4
 
 
 def pso_1995(task: Task, *, population: int = 50, c1: float = 2.0, c2: float = 2.0) -> Moves:
-    """No inertia weight (004 eq. 1-2); only the velocity clamp keeps it from diverging."""
-    yield from fly(task, task.sample(population), lambda k: (1.0, c1, c2))
+    """Run PSO without an inertia weight: the clamp alone keeps the velocities from diverging.
 
+    Parameters
+    ----------
+    task : Task
+        Box, random numbers, budget.
+    population : int
+        Number of particles.
+    c1, c2 : float
+        Own factor, social factor.
 
-def linear_inertia(k: float, w_max: float = 0.9, w_min: float = 0.4) -> float:
-    """Return w at progress k in [0, 1]."""
-    return w_max - (w_max - w_min) * k  # 004 (4), 001 (14)
+    Yields
+    ------
+    Array, shape (population, dim)
+        Points to be evaluated.
+    """
+    yield from fly(task, task.sample(population), lambda k: (1.0, c1, c2))  # Zhang 2025, eq. 1-2

@@ -1,6 +1,6 @@
-"""Uniform random search: the least any algorithm must beat.
+"""Uniform random search: the least that any algorithm must beat.
 
-Source: no paper; independent uniform points, the best one kept by the driver.
+There is no paper: independent uniform points, of which the driver keeps the best.
 """
 
 from __future__ import annotations
@@ -9,6 +9,19 @@ from metaheuristics.driver.task import Moves, Task
 
 
 def random_search(task: Task, *, population: int = 50) -> Moves:
-    """Yield uniform points (population, dim) for ever; batch size does not change the points."""
+    """Draw uniform points; the batch size does not change them.
+
+    Parameters
+    ----------
+    task : Task
+        Box, random numbers, budget.
+    population : int
+        Points per batch.
+
+    Yields
+    ------
+    Array, shape (population, dim)
+        Points to be evaluated.
+    """
     while True:
         yield task.sample(population)

@@ -1,16 +1,26 @@
-"""The sparrow search algorithm.
+"""The sparrow search algorithm ("SSA" also names the salp swarm, so it is sparrow here).
 
-Source: Xue & Shen 2020, "A novel swarm intelligence optimization approach: sparrow search algorithm",
-Systems Science & Control Engineering 8(1), 22-34, eq. 3-5; seed paper 002 (Zhou 2025), section 4.1,
-prints them as eq. 8-11.  ("SSA" also names the salp swarm: here it is sparrow.)
+References
+----------
+Xue J., Shen B. (2020).  A novel swarm intelligence optimization approach: sparrow search algorithm.  Systems
+Science & Control Engineering 8(1), 22-34.  Eq. 3-5.
 
-What 002 misprints: i is the rank by fitness, not the generation; R is the alarm value R2 ~ U(0, 1), not
-a fitness; L is a row of ones; A+ is a pseudo-inverse, not a random number.  `sparrow_printed` takes
-eq. 8 and 10 to the letter instead.
+Zhou Y. (2025).  Trajectory optimization of manipulator based on improved sparrow algorithm.  Hans
+Publishers.  Section 4.1 prints them as eq. 8-11.
 
-A generation is three batches, all evaluated, and a sparrow keeps what is better: producers, then
-scroungers around the best producer as it now is, then scouts from where they now are.  Producer moves
-scale x itself, so the flock is drawn towards x = 0.
+Printed, and how it is read
+---------------------------
+`sparrow` follows Xue & Shen 2020; `sparrow_printed` follows Zhou 2025, eq. 8 and 10, literally:
+
+eq. 8   i is called the generation; it is the rank by fitness.
+eq. 8   R is called a fitness; it is the alarm value R2 ~ U(0, 1).  The standard M that Zhou 2025 compares the
+        fitness with is open: the median of the flock.
+eq. 9   L is a row of ones.
+eq. 10  A+ is called a random number; it is the pseudo-inverse A^T (A A^T)^-1.
+
+A generation is three batches, all evaluated: producers, then scroungers around the best producer as it now
+is, then scouts from where they now are.  A sparrow keeps what is better.  The moves of producers scale x
+itself, so that the flock is drawn towards x = 0.
 """
 
 from __future__ import annotations
@@ -27,12 +37,20 @@ Rows: TypeAlias = NDArray[np.intp]
 Combine: TypeAlias = Callable[[Rows, Array], Array]
 """(rows, sparrow moves (m, dim) in the box) -> what is done instead (m, dim)."""
 
-EPSILON = 1e-50  # of eq. 5
-LARGEST = 700.0  # exponent: more would overflow
+EPSILON = 1e-50
+"""Keeps the divisor of Xue & Shen 2020, eq. 5, above zero."""
+LARGEST = 700.0
+"""Largest exponent: exp of more would overflow."""
 
 
 class Flock:
-    """Positions x (n, dim) and their fitness (n,), +inf until evaluated."""
+    """Positions ``x`` (n, dim) and their ``fitness`` (n,), +inf until evaluated.
+
+    Parameters
+    ----------
+    x : Array, shape (n, dim)
+        Start.
+    """
 
     def __init__(self, x: Array) -> None:
         self.x = x
@@ -44,7 +62,17 @@ class Flock:
         self.x, self.fitness = self.x[order], self.fitness[order]
 
     def keep(self, rows: Rows, moved: Array, fitness: Array) -> None:
-        """Take moved (m, dim) with its fitness (m,) in these rows where it is better."""
+        """Take over the moves that are better.
+
+        Parameters
+        ----------
+        rows : Rows, shape (m,)
+            The sparrows that moved.
+        moved : Array, shape (m, dim)
+            Where to.
+        fitness : Array, shape (m,)
+            Fitness there.
+        """
         better = fitness < self.fitness[rows]
         taken = rows[better]
         self.x[taken], self.fitness[taken] = moved[better], fitness[better]
@@ -58,7 +86,24 @@ def sparrow(
     scouts: float = 0.1,
     safety: float = 0.8,
 ) -> Moves:
-    """Sparrow search; ``producers`` and ``scouts`` are shares, ``safety`` is the ST of the paper."""
+    """Run the sparrow search.
+
+    Parameters
+    ----------
+    task : Task
+        Box, random numbers, budget.
+    population : int
+        Number of sparrows.
+    producers, scouts : float
+        Shares of the flock.
+    safety : float
+        Safety threshold ST.
+
+    Yields
+    ------
+    Array, shape (m, dim)
+        Points to be evaluated.
+    """
     flock = Flock(task.sample(population))
     yield from forage(task, flock, producers, scouts, safety)
 
@@ -66,9 +111,21 @@ def sparrow(
 def sparrow_printed(
     task: Task, *, population: int = 50, producers: float = 0.2, scouts: float = 0.1
 ) -> Moves:
-    """Sparrow search with 002's eq. 8 and 10 to the letter.
+    """Run the sparrow search with Zhou 2025, eq. 8 and 10, as printed.
 
-    The standard M that a fitness R is measured by is open: the flock's median.
+    Parameters
+    ----------
+    task : Task
+        Box, random numbers, budget.
+    population : int
+        Number of sparrows.
+    producers, scouts : float
+        Shares of the flock.
+
+    Yields
+    ------
+    Array, shape (m, dim)
+        Points to be evaluated.
     """
     flock = Flock(task.sample(population))
     yield from forage(task, flock, producers, scouts, safety=None)
@@ -83,9 +140,27 @@ def forage(
     combine: Combine = lambda rows, moved: moved,
     after: Callable[[], None] = lambda: None,
 ) -> Moves:
-    """Fly generation after generation; ``after`` is called at the end of each, and of the start.
+    """Move a flock until the budget is gone.
 
-    safety None: the printed letter.
+    Parameters
+    ----------
+    task : Task
+        Box, random numbers, budget.
+    flock : Flock
+        The flock at its start.
+    producers, scouts : float
+        Shares of the flock.
+    safety : float or None
+        Safety threshold ST; None for Zhou 2025, eq. 8 and 10, as printed.
+    combine : Combine
+        Puts another move in place of the sparrow moves.
+    after : Callable[[], None]
+        Called after the first evaluation, and after each generation.
+
+    Yields
+    ------
+    Array, shape (m, dim)
+        Points to be evaluated.
     """
     n = len(flock.x)
     n_producers, n_scouts = max(1, round(producers * n)), max(1, round(scouts * n))
@@ -117,27 +192,28 @@ def _batch(task: Task, flock: Flock, rows: Rows, moves: Array, combine: Combine)
 
 
 def _produced(task: Task, flock: Flock, rows: Rows, generations: float, safety: float) -> Array:
-    """Producers' moves; alpha and Q are one number per sparrow, R2 one per generation."""
+    """Moves of producers; alpha and Q are one number per sparrow, R2 one per generation."""
     x = flock.x[rows]
     if task.rng.random() < safety:
         alpha = 1 - task.rng.random((len(rows), 1))  # in (0, 1]
-        return np.asarray(x * np.exp(-(rows[:, None] + 1) / (alpha * generations)))  # (3); 002 (8)
+        shrunk = x * np.exp(-(rows[:, None] + 1) / (alpha * generations))  # eq. 3; Zhou 2025, eq. 8
+        return np.asarray(shrunk)
     Q = task.rng.standard_normal((len(rows), 1))
-    return np.asarray(x + Q)  # (3): L is a row of ones; 002 (9)
+    return np.asarray(x + Q)  # eq. 3, L is a row of ones; Zhou 2025, eq. 9
 
 
 def _produced_printed(task: Task, flock: Flock, rows: Rows, t: float) -> Array:
-    """002 (8)-(9) to the letter: t, generation / generations, for i / iter_max; R is the fitness."""
+    """Moves of producers as printed: t = generation / generations for i / iter_max, R the fitness."""
     x, R = flock.x[rows], flock.fitness[rows, None]
     alpha = 1 - task.rng.random((len(rows), 1))
     Q = task.rng.standard_normal((len(rows), 1))
     exponent = -t * np.where(np.isfinite(R), R, 0.0) / alpha
-    shrunk = x * np.exp(np.minimum(exponent, LARGEST))  # (8)
-    return np.where(np.median(flock.fitness) > R, shrunk, x + Q)  # (9)
+    shrunk = x * np.exp(np.minimum(exponent, LARGEST))  # Zhou 2025, eq. 8
+    return np.where(np.median(flock.fitness) > R, shrunk, x + Q)  # Zhou 2025, eq. 9
 
 
 def _scrounged(task: Task, flock: Flock, rows: Rows, n_producers: int, *, printed: bool) -> Array:
-    """Scroungers' moves around the best producer; Q is one number per sparrow."""
+    """Moves of scroungers around the best producer; Q is one number per sparrow."""
     n, dim = flock.x.shape
     x = flock.x[rows]
     best = flock.x[flock.fitness[:n_producers].argmin()]
@@ -145,25 +221,25 @@ def _scrounged(task: Task, flock: Flock, rows: Rows, n_producers: int, *, printe
     rank = rows[:, None] + 1
     Q = task.rng.standard_normal((len(rows), 1))
     with np.errstate(over="ignore"):
-        hungry = Q * np.exp((worst - x) / rank**2)  # (4); 002 (10)
+        hungry = Q * np.exp((worst - x) / rank**2)  # eq. 4; Zhou 2025, eq. 10
     if printed:
-        near = best + np.abs(x - best) * task.rng.random(x.shape)  # 002 (10): A+ "a random number"
+        near = best + np.abs(x - best) * task.rng.random(x.shape)  # Zhou 2025, eq. 10, printed
     else:
         A = 2.0 * task.rng.integers(2, size=x.shape) - 1
         # A+ = A^T (A A^T)^-1 = A^T / dim: one number for all coordinates
-        near = best + (np.abs(x - best) * A).sum(axis=1, keepdims=True) / dim  # (4)
+        near = best + (np.abs(x - best) * A).sum(axis=1, keepdims=True) / dim  # eq. 4
     return np.asarray(np.where(rank > n / 2, hungry, near))
 
 
 def _scouted(task: Task, flock: Flock, rows: Rows) -> Array:
-    """Scouts' moves; K is one number per sparrow, beta one per coordinate."""
+    """Moves of scouts; K is one number per sparrow, beta one per coordinate."""
     x, fitness = flock.x[rows], flock.fitness[rows, None]
     best, worst = flock.fitness.argmin(), flock.fitness.argmax()
     beta = task.rng.standard_normal(x.shape)
     K = 2 * task.rng.random((len(rows), 1)) - 1
-    to_best = flock.x[best] + beta * np.abs(x - flock.x[best])  # (5); 002 (11)
+    to_best = flock.x[best] + beta * np.abs(x - flock.x[best])  # eq. 5; Zhou 2025, eq. 11
     f_worst = flock.fitness[worst]
     gap = np.subtract(fitness, f_worst, out=np.zeros_like(fitness), where=fitness < f_worst) + EPSILON
     with np.errstate(over="ignore"):
-        away = x + K * (np.abs(x - flock.x[worst]) / gap)  # (5); 002 (11)
+        away = x + K * (np.abs(x - flock.x[worst]) / gap)  # eq. 5; Zhou 2025, eq. 11
     return np.asarray(np.where(fitness > flock.fitness[best], to_best, away))

@@ -1,12 +1,25 @@
-"""The whale optimisation algorithm with an inertia weight on its leader and a chaotic start.
+"""The whale optimisation algorithm of Lu 2024: an inertia weight on the leader, and a chaotic start.
 
-Source: seed paper 003 (Lu & Wang 2024, J. Northeastern University 45(5), 683-689), section 2,
-eq. 14-23; 30 whales, 500 iterations.  The default is the reading that agrees with the
-text (step 3 of section 3.2 lets A choose, as in Mirjalili & Lewis 2016); eq. 16, 19, 21 and 23 to the
-letter are `printed`.  b is not printed: 1, as in 2016.
+References
+----------
+Lu Z., Wang X. (2024).  Mechanical arm trajectory planning based on B-spline and whale optimization algorithm.
+Journal of Northeastern University (Natural Science) 45(5), 683-689.  Section 2, eq. 14-23; 30 whales, 500
+iterations.
 
-The weight falls from 1 to 0, so the leader w X* ends in x = 0: where the optimum is elsewhere, the last
-steps search there for nothing.
+Printed, and how it is read
+---------------------------
+The default agrees with the text, whose step 3 in section 3.2 lets A choose the move as in Mirjalili & Lewis
+2016; ``printed`` follows these equations literally:
+
+eq. 16      One random number r for both A and C.
+eq. 19, 21  The test |A| < 1 is left out.
+eq. 23      The tent map has its peak at 0.5, where its orbit ends in 0 (``lam``; 0.499 by default).
+
+Open: s of eq. 22 (1; the larger, the sooner the weight falls), and b of the spiral (1, as in 2016).  A, C,
+lambda and g are one number per whale, as in `metaheuristics.swarms.whale`.
+
+The weight falls from 1 to 0, so that the leader w X* ends in x = 0.  Where the optimum is elsewhere, the last
+steps of the search are lost.
 """
 
 from __future__ import annotations
@@ -14,7 +27,8 @@ from __future__ import annotations
 import numpy as np
 
 from metaheuristics.driver.task import Moves, Task
-from metaheuristics.swarms.mipso import tent_population
+from metaheuristics.swarms.tent import tent_population
+from metaheuristics.swarms.whale import Leader, encircle, spiral_around
 
 
 def whale_lu_2024(
@@ -26,34 +40,60 @@ def whale_lu_2024(
     lam: float = 0.499,
     printed: bool = False,
 ) -> Moves:
-    """Whales with inertia; ``s`` > -1 is open, the larger the sooner the weight falls.
+    """Run the whales of Lu 2024.
 
-    ``lam`` is 0.499 for the printed 0.5, at which the map's orbit ends in 0.  ``printed``: one r for A
-    and C, no test of A.  A, C, lambda and g are one number per whale, as in `whale`.
+    Parameters
+    ----------
+    task : Task
+        Box, random numbers, budget.
+    population : int
+        Number of whales.
+    s : float
+        Constant of the inertia weight (eq. 22), above -1.
+    b : float
+        Constant of the spiral (eq. 18).
+    lam : float
+        Place of the tent map's peak in (0, 1).
+    printed : bool
+        One r for A and C, and no test of |A|.
+
+    Yields
+    ------
+    Array, shape (population, dim)
+        Points to be evaluated.
     """
-    x = tent_population(task, population, lam)
-    best, best_fitness = x[0].copy(), np.inf
+    x = tent_population(task, population, lam)  # Lu 2024, eq. 23
+    leader = Leader(x)
     while True:
-        fitness = yield x
-        i = fitness.argmin()
-        if fitness[i] < best_fitness:
-            best, best_fitness = x[i].copy(), fitness[i]
-
+        leader.renew(x, (yield x))
         k = task.progress
-        w = inertia(k, s)
+        centre = inertia(k, s) * leader.x
         delta = 2 * (1 - k)
         r1, r2, choice, r3 = task.rng.random((4, population, 1))
         other = x[task.rng.integers(population, size=population)]
-        A = 2 * delta * r1 - delta  # (16)
-        C = 2 * (r1 if printed else r2)  # (16); printed with the same r
+        A = 2 * delta * r1 - delta  # Lu 2024, eq. 16
+        C = 2 * (r1 if printed else r2)  # Lu 2024, eq. 16; printed with one r
         g = 2 * r3 - 1
-        near = True if printed else np.abs(A) < 1  # (19) and (21) leave the test out
-        encircled = w * best - A * np.abs(C * best - x)  # (14), (21)
-        searched = other - A * np.abs(C * other - x)  # (20)
-        spiral = np.abs(best - x) * np.exp(b * g) * np.cos(2 * np.pi * g) + w * best  # (18), (21)
+        near = True if printed else np.abs(A) < 1  # Lu 2024, eq. 19, 21 leave the test out
+        encircled = encircle(centre, leader.x, A, C, x)  # Lu 2024, eq. 14, 21
+        searched = encircle(other, other, A, C, x)  # Lu 2024, eq. 20
+        spiral = spiral_around(centre, leader.x, g, b, x)  # Lu 2024, eq. 18, 21
         x = task.clip(np.where(choice < 0.5, np.where(near, encircled, searched), spiral))
 
 
 def inertia(k: float, s: float = 1.0) -> float:
-    """Return the weight at progress k in [0, 1]: from 1 to 0."""
-    return (1 - k) / (1 + s * k)  # (22)
+    """Return the inertia weight of Lu 2024, eq. 22.
+
+    Parameters
+    ----------
+    k : float
+        Progress in [0, 1].
+    s : float
+        Its constant, above -1.
+
+    Returns
+    -------
+    float
+        The weight, from 1 to 0.
+    """
+    return (1 - k) / (1 + s * k)  # Lu 2024, eq. 22

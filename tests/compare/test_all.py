@@ -15,7 +15,6 @@ import pytest
 from commands_run import ROOT, command
 from graded_runs import without_times
 
-from compare.benchmark.run import workers
 from compare.benchmark.store import Store
 
 SMALL = ("--cases", "sr4c,cobot", "--swarms", "pso,whale", "--seeds", "2", "--budget", "200")
@@ -31,15 +30,6 @@ def report(tmp_path_factory: pytest.TempPathFactory) -> Path:
 
 def comparable(folder: Path) -> list[dict[str, object]]:
     return [without_times(row) for row in Store(folder).rows()]
-
-
-def test_workers_are_the_only_threads(monkeypatch: pytest.MonkeyPatch) -> None:
-    monkeypatch.delenv("OMP_NUM_THREADS", raising=False)
-    monkeypatch.setenv("OPENBLAS_NUM_THREADS", "3")  # somebody's own choice
-    with workers(1) as pool:
-        found = list(pool.map(os.getenv, ("OMP_NUM_THREADS", "OPENBLAS_NUM_THREADS")))
-    assert found == ["1", "3"]
-    assert "OMP_NUM_THREADS" not in os.environ
 
 
 def test_one_worker_and_two_write_the_same_rows(report: Path, tmp_path: Path) -> None:

@@ -10,12 +10,14 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from metaheuristics import Status, Task, minimise
+from metaheuristics import ALGORITHMS, Result, Status, Task, minimise
 from metaheuristics.driver.task import Moves
 
 Array = NDArray[np.float64]
 LO, HI = np.array([-1.0, 2.0, -7.0]), np.array([3.0, 2.5, -1.0])
 CENTRE = np.array([0.3, 2.1, -2.0])
+NAMES = list(ALGORITHMS)
+D = range(3)  # coordinates of the box
 
 
 def bowl(x: Array) -> Array:
@@ -132,3 +134,56 @@ def loop_probability(f: list[float], pm1: float, pm2: float) -> list[float]:
 def task_on(dim: int, seed: int = 0, lo: float = 0.0, hi: float = 1.0) -> Task:
     """Make a task outside any run."""
     return Task(np.full(dim, lo), np.full(dim, hi), np.random.default_rng(seed), 2, lambda: 1)
+
+
+def run_entry(
+    name: str,
+    f: Callable[[Array], Array] = bowl,
+    *,
+    budget: int = 700,
+    seed: int | np.random.SeedSequence = 1,
+    **changed: Any,
+) -> Result:
+    """Run a registered algorithm on the 3-D box."""
+    algorithm = ALGORITHMS[name]
+    return minimise(
+        algorithm.function, f, LO, HI, budget=budget, seed=seed, **(algorithm.parameters | changed)
+    )
+
+
+def same(a: Result, b: Result) -> bool:
+    """Tell whether two results agree to the bit, times apart."""
+    return (
+        np.array_equal(np.asarray(a.x), np.asarray(b.x))
+        and a.fitness == b.fitness
+        and a.evaluations == b.evaluations
+        and np.array_equal(a.trace_evaluations, b.trace_evaluations)
+        and np.array_equal(a.trace_best, b.trace_best)
+        and (a.status, a.note) == (b.status, b.note)
+    )
+
+
+def start(rng: np.random.Generator, n: int) -> list[list[float]]:
+    """Draw n uniform points."""
+    return (LO + (HI - LO) * rng.random((n, 3))).tolist()  # type: ignore[no-any-return]
+
+
+def boxed(row: list[float]) -> list[float]:
+    """Clip one point."""
+    return [clipped(row[d], LO[d], HI[d]) for d in D]
+
+
+def one_task(seed: int, dim: int = 3, lo: float = -2.0, hi: float = 3.0, budget: int = 400) -> Task:
+    """Make a task outside any run; nothing of its budget is ever used."""
+    rng = np.random.default_rng(seed)
+    return Task(np.full(dim, lo), np.full(dim, hi), rng, budget, lambda: 0)
+
+
+def script(sizes: list[int]) -> Callable[[Task], Moves]:
+    """Yield random batches of the given sizes, then return."""
+
+    def algorithm(task: Task) -> Moves:
+        for n in sizes:
+            yield task.sample(n)
+
+    return algorithm

@@ -14,7 +14,7 @@ from compare.papers.measure import percent
 from compare.papers.printed import tables
 from compare.report.style import BLUE, VERMILION, styled
 from formulations.problem.arrays import Array
-from metaheuristics.swarms.mipso import tent_map
+from metaheuristics.swarms.tent import tent_map
 
 _STARTS = {False: 2000, True: 20_000}  # populations whose evenness is compared
 

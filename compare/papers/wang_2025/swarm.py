@@ -12,7 +12,8 @@ from compare.papers.item import Item, Shown, Table
 from compare.papers.printed import tables
 from compare.report.style import BLACK, BLUE, GREEN, GREY, ORANGE, VERMILION, styled
 from formulations.problem.arrays import Array
-from metaheuristics.swarms.mipso import learning_factors, printed_inertia, resolved_inertia, tent_map
+from metaheuristics.swarms.mipso import learning_factors, printed_inertia, resolved_inertia
+from metaheuristics.swarms.tent import tent_map
 
 _STARTS = 1000  # populations whose evenness is compared
 

@@ -28,6 +28,10 @@ def ladder_figure(problem: Problem, ladder: LadderRecord, rows: Sequence[Row]) -
         Its bounds.
     rows : sequence of Row
         Its rows.
+
+    Returns
+    -------
+    Figure
     """
     entries = [
         (RUNGS[key].name, rung["seconds"], *KIND_STYLE[rung["kind"]])

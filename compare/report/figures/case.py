@@ -90,6 +90,10 @@ def where_the_time_goes(problem: Problem, ladder: LadderRecord, rows: Sequence[R
         Its bounds.
     rows : sequence of Row
         Its rows; PSO is shown if it ran, else the swarm of the first row.
+
+    Returns
+    -------
+    Figure
     """
     swarm = rows[0].swarm if all(row.swarm != "pso" for row in rows) else "pso"
     splits = {}

@@ -54,6 +54,10 @@ def convergence_figure(
         Its rows.
     traces : mapping of RunKey to list of Trace
         The traces of their runs.
+
+    Returns
+    -------
+    Figure
     """
     swarms = list(dict.fromkeys(row.swarm for row in rows))
     codings = list(dict.fromkeys(row.coding for row in rows))

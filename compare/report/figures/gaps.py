@@ -24,6 +24,10 @@ def gap_figure(problem: Problem, rows: Sequence[Row]) -> Figure:
     problem : Problem
     rows : sequence of Row
         Its rows.
+
+    Returns
+    -------
+    Figure
     """
     swarms = list(dict.fromkeys(row.swarm for row in rows))
     codings = list(dict.fromkeys(row.coding for row in rows))

@@ -33,6 +33,10 @@ def motion_figure(problem: Problem, ladder: LadderRecord, rows: Sequence[Row]) -
         Its bounds; the optimum of the family is drawn where no swarm has a verified motion.
     rows : sequence of Row
         Its rows.
+
+    Returns
+    -------
+    Figure
     """
     family = FAMILIES[problem.family]
     best = best_row(rows)

@@ -11,7 +11,7 @@ from xml.etree import ElementTree
 import numpy as np
 import pytest
 
-from compare.report.motion_picture import VIEWS, arm_of, motion_picture, skeleton
+from compare.report.motion_picture import VIEWS, arm_of, draw_motion_picture, skeleton
 from formulations import FAMILIES, InputError, load
 from formulations.arms import ARMS, load_arm, random_joints
 
@@ -39,7 +39,7 @@ def test_views_are_seen_at_right_angles() -> None:
 def test_the_picture_shows_the_motion_in_true_time() -> None:
     problem, arm = load("sr4c"), load_arm("sr4c")
     trajectory = FAMILIES["3-5-3"].trajectory(problem, [1.5, 2.0, 1.4])
-    text = motion_picture(arm, trajectory, "a & b")
+    text = draw_motion_picture(arm, trajectory, "a & b")
     assert len(text) < 150_000
     root = ElementTree.fromstring(text)
     assert root.find(f"{SVG}title").text == "a & b"
@@ -73,7 +73,7 @@ def test_what_has_no_arm_is_refused(tmp_path: Path) -> None:
     assert arm_of("mine") is None
     trajectory = FAMILIES["3-5-3"].trajectory(load("sr4c").joint(0), [1.5, 2.0, 1.4])
     with pytest.raises(InputError, match="1 joints for 6 of sr4c"):
-        motion_picture(load_arm("sr4c"), trajectory, "one joint")
+        draw_motion_picture(load_arm("sr4c"), trajectory, "one joint")
     call = [sys.executable, "-m", "compare", "motion_picture", "mine"]
     done = subprocess.run(call, capture_output=True, text=True, check=False)
     assert (done.returncode, done.stderr.count("\n")) == (2, 1)

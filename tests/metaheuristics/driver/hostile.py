@@ -7,6 +7,7 @@ import random
 import sys
 import time
 from collections.abc import Callable
+from concurrent.futures import ThreadPoolExecutor
 from typing import Any
 
 import numpy as np
@@ -196,3 +197,14 @@ def aborter(task: Task) -> Moves:
     """Crash."""
     yield task.sample(4)
     os.abort()
+
+
+def crowd(f: F, lo: Array, hi: Array, budget: int, rng: np.random.Generator) -> Any:
+    """Call f from eight threads at once, and raise if one gets the fitness of another."""
+
+    def one(x: Array) -> bool:
+        return bool(f(x) == ((x - [0.3, 2.1, -2.0]) ** 2).sum())
+
+    with ThreadPoolExecutor(8) as pool:
+        if not all(pool.map(one, lo + (hi - lo) * rng.random((budget, len(lo))))):
+            raise ValueError("the fitness of another thread")
