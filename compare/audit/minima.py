@@ -77,11 +77,15 @@ def crossing_times(problem: Problem, halves: Array) -> Array:
     return np.asarray(d / problem.limits.velocity * (1.0 - 1e-14))
 
 
-def with_limits(problem: Problem, derivatives: Array) -> Problem:
-    """The same task under other limits (3, dof), inf where there is none; the position limits stay."""
+def with_limits(problem: Problem, derivatives: Array, position: Array | None = None) -> Problem:
+    """The same task under other limits (3, dof), inf where there is none.
+
+    position: (dof, 2); the problem's own limits of position if it is left out.
+    """
     velocity, acceleration, jerk = derivatives
     velocity = np.where(np.isfinite(velocity), velocity, UNREACHED)
-    limits = Limits.of(velocity, acceleration, jerk, problem.limits.position, dof=problem.dof)
+    bounds = problem.limits.position if position is None else position
+    limits = Limits.of(velocity, acceleration, jerk, bounds, dof=problem.dof)
     return Problem.of(
         problem.waypoints, limits, name=problem.name, family=problem.family,
         title=problem.title, display_unit=problem.display_unit,

@@ -42,6 +42,16 @@ class Motion:
         return self.row.limits is not None
 
     @cached_property
+    def loosest(self) -> Problem:
+        """The task under the highest limits that print like the stated ones."""
+        return self.paper.loosest(self.problem, self.row.joint, self.row.limits)
+
+    @cached_property
+    def tightest(self) -> Problem:
+        """The task under the lowest limits that print like the stated ones."""
+        return self.paper.tightest(self.problem, self.row.joint, self.row.limits)
+
+    @cached_property
     def times(self) -> Array:
         """Durations as printed, (n_segments,) [s]."""
         return values(self.row.times)
@@ -92,9 +102,9 @@ class Motion:
     @cached_property
     def stretch(self) -> tuple[float, float, float]:
         """Least factor on all times that keeps the limits: at least, at the printed digits, at most."""
-        limits = self.problem.limits.derivatives
-        low = float(((self.least / limits) ** ROOTS).max())
-        return low, self.verdict.stretch, float(((self.most / limits) ** ROOTS).max())
+        high, low = self.loosest.limits.derivatives, self.tightest.limits.derivatives
+        least = float(((self.least / high) ** ROOTS).max())
+        return least, self.verdict.stretch, float(((self.most / low) ** ROOTS).max())
 
     @property
     def breaks(self) -> bool:
@@ -111,7 +121,7 @@ class Motion:
     @cached_property
     def impossible(self) -> bool:
         """Whether it is proved that no durations of this total keep the stated limits."""
-        return self.breaks and impossible(self.problem, self.halves, self.seconds[1])
+        return self.breaks and impossible(self.loosest, self.halves, self.seconds[1])
 
     @cached_property
     def optimum(self) -> FamilyBound | None:

@@ -54,14 +54,14 @@ def fitted(motion: Motion) -> Array | None:
 
     None where the stated ones fit, or no others.
     """
-    stated = motion.problem.limits.derivatives
+    stated, lowest = motion.problem.limits.derivatives, motion.tightest.limits.derivatives
     # several joints with limits of their own fit anything; and a proof costs less than an optimum
     near = motion.seconds[0] / (1.0 + _SLOWER)
-    if motion.row.joint is None or impossible(motion.problem, 0.0 * motion.halves, near):
+    if motion.row.joint is None or impossible(motion.tightest, 0.0 * motion.halves, near):
         return None
-    lower = motion.rounded < stated * (1.0 - _BELOW)
-    lower &= np.isfinite(stated) & (motion.most < stated)
-    if not lower.any() or motion.optimum is None or not near > motion.optimum.upper:
+    lower = motion.rounded < lowest * (1.0 - _BELOW)
+    lower &= np.isfinite(stated) & (motion.most < lowest)
+    if not lower.any() or not near > minimum(motion.tightest).upper:
         return None
     if not motion.implied_gap <= _FITS:
         return None
@@ -84,7 +84,8 @@ def total_findings(paper: Paper, totals: Sequence[Total]) -> list[Finding]:
         if first.limits is None or paper.waypoints is None:
             continue
         problem = paper.problem(first.joint, first.limits)
-        fast = [t for t in group if too_fast(paper, t, problem)]
+        loosest = paper.loosest(problem, first.joint, first.limits)
+        fast = [t for t in group if too_fast(paper, t, loosest)]
         if fast:
             bound = minimum(problem)
             best = min(t.value.value for t in fast)
@@ -113,7 +114,7 @@ def table_findings(motions: Sequence[Motion], totals: Sequence[Total]) -> list[F
         limits = None if motion.row.joint is None or motion.breaks else in_force(motion)
         if limits is None:
             continue
-        problem = with_limits(motion.problem, limits)
+        problem = with_limits(motion.loosest, limits)
         bound = None
         mine = (motion.row.joint, motion.row.limits)
         for group in _tables_of(t for t in totals if (t.joint, t.limits) == mine):
@@ -135,7 +136,7 @@ def table_findings(motions: Sequence[Motion], totals: Sequence[Total]) -> list[F
 def in_force(motion: Motion) -> Array | None:
     """Limits (3, 1) that one joint's motion was made under, by all that its numbers say, to two digits.
 
-    None where its numbers do not say.
+    Limits that are stated and fit are the highest that print alike. None where the numbers do not say.
     """
     if not motion.stated:
         return motion.rounded if motion.implied_gap <= _FITS else None
@@ -143,7 +144,9 @@ def in_force(motion: Motion) -> Array | None:
     return (
         None
         if limits is None
-        else np.where(limits < stated, np.minimum(motion.rounded, stated), stated)
+        else np.where(
+            limits < stated, np.minimum(motion.rounded, stated), motion.loosest.limits.derivatives
+        )
     )
 
 

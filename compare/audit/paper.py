@@ -7,7 +7,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from compare.audit.minima import UNREACHED
+from compare.audit.minima import UNREACHED, with_limits
 from compare.audit.printed import Printed
 from formulations import InputError, Limits, Problem
 from formulations.problem.arrays import Array
@@ -19,13 +19,30 @@ RULES = ("sum", "difference", "mean", "reduction")
 @dataclass(frozen=True)
 class Stated:
     """Limits as a table states them. joint: from 0, None for all. derivatives: (3, dof or 1), inf where
-    unlimited; position: (dof or 1, 2); in rad.
+    unlimited; position: (dof or 1, 2); in rad. The halves are the half units of their last digits, 0
+    where a number is exact.
     """
 
     name: str
     joint: int | None
     derivatives: Array
     position: Array
+    derivative_halves: Array
+    position_halves: Array
+
+    def of_joint(self, joint: int | None) -> Stated:
+        """The same for one joint of the arm alone, or for all of them."""
+        if joint is None or self.joint is not None:
+            return self
+        one = slice(joint, joint + 1)
+        return Stated(
+            self.name,
+            joint,
+            self.derivatives[:, one],
+            self.position[one],
+            self.derivative_halves[:, one],
+            self.position_halves[one],
+        )
 
 
 @dataclass(frozen=True)
@@ -125,12 +142,10 @@ class Paper:
         dof = w.shape[1]
         bounds: Array = np.tile([-np.inf, np.inf], (dof, 1))
         if limits is not None:
-            stated = self.stated[limits]
-            one = slice(joint, None if joint is None else joint + 1)
-            whole = stated.joint is None
-            bounds = stated.position[one] if whole else stated.position
+            stated = self.stated[limits].of_joint(joint)
+            bounds = stated.position
             if derivatives is None:
-                derivatives = stated.derivatives[:, one] if whole else stated.derivatives
+                derivatives = stated.derivatives
         if derivatives is None:
             derivatives = np.tile([[UNREACHED], [np.inf], [np.inf]], dof)
         velocity, acceleration, jerk = derivatives
@@ -141,6 +156,29 @@ class Paper:
             family=self.family,
             display_unit=self.unit,
         )
+
+    def loosest(self, problem: Problem, joint: int | None, limits: str | None) -> Problem:
+        """The same task under the highest limits that print like the stated ones.
+
+        What breaks these breaks the stated limits for every reading of their digits.
+        """
+        if limits is None:
+            return problem
+        stated = self.stated[limits].of_joint(joint)
+        position = problem.limits.position + stated.position_halves * [-1.0, 1.0]
+        return with_limits(problem, problem.limits.derivatives + stated.derivative_halves, position)
+
+    def tightest(self, problem: Problem, joint: int | None, limits: str | None) -> Problem:
+        """The same task under the lowest limits of velocity, acceleration and jerk that print like the
+        stated ones.
+
+        What keeps these keeps the stated limits for every reading of their digits.
+        """
+        if limits is None:
+            return problem
+        stated = self.stated[limits].of_joint(joint)
+        derivatives = problem.limits.derivatives - stated.derivative_halves
+        return with_limits(problem, derivatives)
 
     def halves_of(self, joint: int | None) -> Array:
         """Half units of the waypoints of one joint or of all, (n, dof or 1) [rad]."""

@@ -11,7 +11,7 @@ from typing import Any
 import numpy as np
 
 from compare.audit.paper import RULES, UNITS, Claim, Paper, Point, Row, Stated, Total
-from compare.audit.printed import halves, printed, row, values
+from compare.audit.printed import halves, printed, reach, row, values
 from formulations import FAMILIES, InputError
 from formulations.arms import ARMS
 from formulations.arms.arm import METRES
@@ -179,22 +179,32 @@ def _stated(table: dict[str, Any], dof: int | None) -> Stated:
     unit = UNITS[_one_of(f"limits: {name}: unit", table["unit"], UNITS)]
     width = 1 if "joint" in table else dof
     rows: list[Array] = []
+    blur: list[Array] = []
     for quantity in QUANTITIES[1:]:
         raw = table.get(quantity)
         if raw is None:
             rows.append(np.full(width or len(rows[0]), np.inf))
+            blur.append(np.zeros(len(rows[-1])))
             continue
         key = f"limits: {name}: {quantity}"
-        numbers = values(row(key, raw if isinstance(raw, list) else [raw], width))
+        digits = row(key, raw if isinstance(raw, list) else [raw], width)
+        numbers = values(digits)
         if not (numbers > 0.0).all():
             raise InputError(f"{key}: {numbers.min():g} is not positive")
         rows.append(numbers * unit)
+        blur.append(reach(digits) * unit)
         width = len(numbers)
     position = np.tile([-np.inf, np.inf], (len(rows[0]), 1))
+    around = np.zeros_like(position)
     if "position" in table:
-        position = np.array(table["position"], dtype=np.float64) * unit
+        key = f"limits: {name}: position"
+        if len(table["position"]) != width:
+            raise InputError(f"{key}: {len(table['position'])} ranges where {width} are expected")
+        ranges = [row(f"{key}: row {i + 1}", r, 2) for i, r in enumerate(table["position"])]
+        position = np.array([values(r) for r in ranges]) * unit
+        around = np.array([reach(r) for r in ranges]) * unit
     joint = table["joint"] - 1 if "joint" in table else None
-    return Stated(name, joint, np.stack(rows), position)
+    return Stated(name, joint, np.stack(rows), position, np.stack(blur), around)
 
 
 def _claim(table: dict[str, Any]) -> Claim:

@@ -69,6 +69,14 @@ def values(numbers: Iterable[Printed]) -> Array:
     return np.array([number.value for number in numbers])
 
 
+def reach(numbers: Iterable[Printed]) -> Array:
+    """Their half units and the rounding of a change of unit, (n,); 0 for an exact number.
+
+    printed value + reach is not below the greatest number that prints alike, in any unit.
+    """
+    return np.array([n.half + 1e-15 * abs(n.value) if n.half else 0.0 for n in numbers])
+
+
 def halves(numbers: Iterable[Printed]) -> Array:
     """Their half units, (n,)."""
     return np.array([number.half for number in numbers])

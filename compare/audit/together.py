@@ -15,20 +15,22 @@ from formulations.motion.trajectory import QUANTITIES, TOLERANCE
 def rule_findings(motion: Motion, rows: Sequence[Motion]) -> list[Finding]:
     """The longest time per segment does not keep what each joint alone keeps."""
     paper, limits = motion.paper, np.full((3, motion.problem.dof), np.inf)
+    shown = limits.copy()  # the same at the printed digits
     alone = {m.row.joint: m for m in rows if m.row in motion.row.of}
     for joint, one in alone.items():
         assert joint is not None
         if one.breaks:
             return []  # then there is nothing to keep
         other = in_force(one) if one.stated else one.rounded
-        limits[:, joint] = (one.problem.limits.derivatives if other is None else other)[:, 0]
+        limits[:, joint] = (one.loosest.limits.derivatives if other is None else other)[:, 0]
+        shown[:, joint] = np.minimum(limits[:, joint], one.problem.limits.derivatives[:, 0])
     need = (motion.least / limits) ** ROOTS
     if not need.max() > 1.0 + TOLERANCE:
         return []
     order, j = (int(i) for i in np.unravel_index(int(need.argmax()), need.shape))
-    k, value, limit = order + 1, float(motion.peaks[j].printed[order]), float(limits[order, j])
+    k, value, limit = order + 1, float(motion.peaks[j].printed[order]), float(shown[order, j])
     printed = np.stack([p.printed for p in motion.peaks], axis=1)
-    stretch = float(((printed / limits) ** ROOTS).max())
+    stretch = float(((printed / shown) ** ROOTS).max())
     several = ", ".join(str(i + 1) for i in np.flatnonzero(need.max(axis=0) > 1.0 + TOLERANCE))
     text = (
         f"each joint alone keeps its limits; with the longest time per segment {QUANTITIES[k]} of "

@@ -24,11 +24,12 @@ def unplaced_findings(paper: Paper) -> list[Finding]:
         if total.limits is None:
             continue
         stated = paper.stated[total.limits]
-        most = longest_with_stops(paper, stated.derivatives)
+        lowest = stated.derivatives - stated.derivative_halves
+        most = longest_with_stops(paper, lowest)
         if not total.value.low > most:
             continue
         other = "deg" if paper.unit == "rad" else "rad"
-        rescaled = longest_with_stops(paper, stated.derivatives * UNITS[other] / paper.angle)
+        rescaled = longest_with_stops(paper, lowest * UNITS[other] / paper.angle)
         text = (
             f"{total.value} s is {number(total.value.value / most)} times the {most:.3g} s in which "
             f"this arm, under {total.limits}, crosses the whole range of its joints in every segment, "

@@ -27,7 +27,7 @@ def motion_faults(motion: Motion) -> list[Finding]:
     if not motion.stated:
         return []
     found = _position(motion)
-    crossing = crossing_times(motion.problem, motion.halves)
+    crossing = crossing_times(motion.loosest, motion.halves)
     allowed = values(row.times) + halves(row.times)
     if (crossing > allowed[:, None]).any():
         found.append(_displacement(motion, crossing, allowed))
@@ -43,8 +43,9 @@ def motion_faults(motion: Motion) -> list[Finding]:
 def _position(motion: Motion) -> list[Finding]:
     """Position limits that no reading of the digits keeps."""
     paper, problem, found = motion.paper, motion.problem, []
-    low = np.minimum(problem.limits.position[:, 0], (problem.waypoints - motion.halves).min(axis=0))
-    high = np.maximum(problem.limits.position[:, 1], (problem.waypoints + motion.halves).max(axis=0))
+    bounds = motion.loosest.limits.position
+    low = np.minimum(bounds[:, 0], (problem.waypoints - motion.halves).min(axis=0))
+    high = np.maximum(bounds[:, 1], (problem.waypoints + motion.halves).max(axis=0))
     for j, peak in enumerate(motion.peaks):
         for value, limit, over in (
             (peak.range_low[1], low[j], low[j] - peak.range_low[1]),
@@ -100,7 +101,7 @@ def _minimum(motion: Motion) -> Finding:
 def _limits(motion: Motion) -> Finding:
     paper, problem = motion.paper, motion.problem
     # the peak that asks for most slowing down
-    need = (motion.least / problem.limits.derivatives) ** ROOTS
+    need = (motion.least / motion.loosest.limits.derivatives) ** ROOTS
     order, j = (int(i) for i in np.unravel_index(int(need.argmax()), need.shape))
     value, least = float(motion.peaks[j].printed[order]), float(motion.least[order, j])
     limit = float(problem.limits.derivatives[order, j])
