@@ -6,9 +6,9 @@ import sys
 from pathlib import Path
 from typing import Any
 
-from compare.audit.audit import audit
-from compare.audit.chapter import HEADER, chapter
-from compare.audit.paper_file import PAPERS, load_papers
+from compare.audit.chapters import HEADER, chapter
+from compare.audit.paper import PAPERS, load_papers
+from compare.audit.whole_paper import audit
 from compare.commands import shared as commands
 
 _SHOWN = 3  # findings of one kind that are shown without --every

@@ -13,9 +13,8 @@ from typing import Any
 
 import numpy as np
 
-from compare.audit.motions import Motion
-from compare.audit.paper import Paper, Row
-from compare.audit.paper_file import PAPERS, load_papers
+from compare.audit.motion.printed_motion import PrintedMotion
+from compare.audit.paper import PAPERS, Paper, PrintedTimes, load_papers
 from formulations import Problem
 from formulations.motion.trajectory import TOLERANCE
 
@@ -105,8 +104,8 @@ def _published(paper: Paper, problem: Problem) -> list[Line]:
     return [line for row in wholes for line in _whole(paper, row, problem)]
 
 
-def _whole(paper: Paper, row: Row, problem: Problem) -> list[Line]:
-    motion = Motion(paper, row, problem)
+def _whole(paper: Paper, row: PrintedTimes, problem: Problem) -> list[Line]:
+    motion = PrintedMotion(paper, row, problem)
     verdict = motion.verdict
     total, note = motion.total, ""
     if row.total is not None and not row.total.low <= total <= row.total.high:

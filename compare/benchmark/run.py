@@ -18,7 +18,7 @@ import numpy as np
 from tqdm import tqdm
 
 from compare.audit import audit, load_papers
-from compare.audit.paper_file import published_text
+from compare.audit.paper import published_text
 from compare.benchmark.grade import Graded, Run, grade
 from compare.benchmark.honest import honest_table
 from compare.benchmark.statistics import bound_of

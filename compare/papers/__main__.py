@@ -11,6 +11,7 @@ from concurrent.futures.process import BrokenProcessPool
 
 from tqdm import tqdm
 
+from compare.audit.paper import CASE_OF
 from compare.benchmark.run import each, workers
 from compare.commands import shared as commands
 from compare.papers import ITEMS, page, shelf
@@ -79,8 +80,13 @@ def main() -> int:
 
 
 def choose(keys: list[str], label: str | None) -> dict[str, list[Item]]:
-    """Items by paper. Raises InputError that names what is known."""
-    papers = commands.chosen("KEY", ",".join(keys) if keys else None, ITEMS)
+    """Choose items of papers. Raises InputError that names what is known.
+
+    keys: cases (sr4c) or authors and years (wang_2025); all papers if there are none. label: of one
+    item, "Table 8"; all if it is None.
+    """
+    cases = [CASE_OF.get(key, key) for key in keys]  # wang_2025 and sr4c name the same paper
+    papers = commands.chosen("KEY", ",".join(cases) if cases else None, ITEMS)
     found = {paper: [i for i in ITEMS[paper] if label in (None, i.label)] for paper in papers}
     found = {paper: items for paper, items in found.items() if items}
     if not found:
@@ -99,7 +105,7 @@ def make(calls: list[Call], jobs: int) -> Iterator[tuple[str, Item, Made]]:
             for paper, item, made in each(pool, "papers", shelf.make, calls):
                 del left[paper, item.key]
                 yield paper, item, made
-    except BrokenProcessPool:  # one of them took the pool with it; in single file it shows which
+    except BrokenProcessPool:  # an item ended its process; one by one it shows which
         yield from _one_by_one(list(left.values()))
 
 

@@ -16,16 +16,16 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 
 from compare.audit import FAULTS, PAPERS, Finding, Paper, audit, chapter, load_papers, parse_papers
-from compare.audit.claims import claims_of
-from compare.audit.minima import impossible, minimum
-from compare.audit.motions import Motion
-from compare.audit.other_limits import table_findings, total_findings
-from compare.audit.peaks import peaks
-from compare.audit.points import points_of
-from compare.audit.printed import printed
-from compare.audit.ranged import Ranged, Undecided
-from compare.audit.together import ranking_findings, rule_findings
-from compare.audit.verdicts import motion_faults
+from compare.audit.findings.claims import claims_of
+from compare.audit.findings.other_limits import table_findings, total_findings
+from compare.audit.findings.points import points_of
+from compare.audit.findings.together import ranking_findings, rule_findings
+from compare.audit.findings.vectors import motion_faults
+from compare.audit.motion.minima import impossible, minimum
+from compare.audit.motion.peaks import peaks
+from compare.audit.motion.printed_motion import PrintedMotion
+from compare.audit.motion.ranged import Ranged, Undecided
+from compare.audit.paper.digits import printed
 from formulations import CASES, FAMILIES, InputError, Limits, Problem, family_optimum, load
 
 DEG = np.pi / 180.0
@@ -191,7 +191,7 @@ values = ["{t.sum():.{sec}f}"]
 
 def verdicts(paper: Paper) -> list[Finding]:
     """Every verdict on time vectors and totals."""
-    motions = [Motion.of(paper, row) for row in paper.rows]
+    motions = [PrintedMotion.of(paper, row) for row in paper.rows]
     found = [finding for motion in motions for finding in motion_faults(motion)]
     return found + claims_of(paper) + total_findings(paper, paper.totals)
 
@@ -210,7 +210,7 @@ def test_rounding_alone_never_makes_a_verdict() -> None:
         digits = [(4, 4), (3, 3), (2, 2)][run % 3]
         paper = paper_of(w, v, a, s * t, digits)
         try:
-            motion = Motion.of(paper, paper.rows[0])
+            motion = PrintedMotion.of(paper, paper.rows[0])
         except Undecided as reason:
             unreadable += "printed as 0.00" in str(reason)
             continue
@@ -370,7 +370,7 @@ def test_a_limit_that_was_not_in_force_is_found() -> None:
     text = synthetic().replace("acceleration = [90, 70]", "acceleration = [90, 140]")
     assert only(text) == {"other limits": ["Table 2, joint 2"]}
     (paper,) = parse_papers(text, "p")
-    (finding,) = motion_faults(Motion.of(paper, paper.rows[1]))
+    (finding,) = motion_faults(PrintedMotion.of(paper, paper.rows[1]))
     assert "acceleration 70" in finding.text
     assert "where 140 is stated" in finding.text
     assert not finding.proved
@@ -493,10 +493,10 @@ def test_rounded_poses_of_rounded_joints_are_never_accused() -> None:
 
 
 @cache
-def shipped(name: str) -> tuple[Paper, tuple[Motion, ...]]:
+def shipped(name: str) -> tuple[Paper, tuple[PrintedMotion, ...]]:
     """A paper and its time vectors as motions."""
     paper = next(p for p in load_papers(name) if p.name == name)
-    return paper, tuple(Motion.of(paper, row) for row in paper.rows)
+    return paper, tuple(PrintedMotion.of(paper, row) for row in paper.rows)
 
 
 def one(found: list[Finding], kind: str, where: str) -> Finding:
@@ -672,7 +672,7 @@ def test_the_command_refuses_what_is_not_there() -> None:
 
 def test_results_under_common_limits_contradict_nothing() -> None:
     (paper,) = parse_papers(synthetic(), "p")
-    motions = [Motion.of(paper, row) for row in paper.rows]
+    motions = [PrintedMotion.of(paper, row) for row in paper.rows]
     assert table_findings(motions, paper.totals) == []
 
 

@@ -8,12 +8,12 @@ import numpy as np
 import pytest
 
 from compare.audit import Finding, Paper, audit, parse_papers
-from compare.audit.claims import claims_of
-from compare.audit.minima import minimum
-from compare.audit.motions import Motion
-from compare.audit.other_limits import table_findings, total_findings
-from compare.audit.together import ranking_findings, rule_findings
-from compare.audit.verdicts import motion_faults
+from compare.audit.findings.claims import claims_of
+from compare.audit.findings.other_limits import table_findings, total_findings
+from compare.audit.findings.together import ranking_findings, rule_findings
+from compare.audit.findings.vectors import motion_faults
+from compare.audit.motion.minima import minimum
+from compare.audit.motion.printed_motion import PrintedMotion
 from formulations import Limits, Problem
 
 DEG = np.pi / 180.0
@@ -62,7 +62,7 @@ values = ["{times.sum():.6f}"]
 
 def faults(paper: Paper) -> list[Finding]:
     """Everything that is called wrong about a paper's vectors and totals."""
-    motions = [Motion.of(paper, row) for row in paper.rows]
+    motions = [PrintedMotion.of(paper, row) for row in paper.rows]
     found = [finding for motion in motions for finding in motion_faults(motion)]
     found += claims_of(paper) + total_findings(paper, paper.totals)
     found += table_findings(motions, paper.totals) + ranking_findings(motions)
@@ -162,10 +162,10 @@ longest = ["0.9500", "0.9500", "0.9500"]
 
     def kinds(limit: str) -> set[str]:
         p = paper(limit)
-        motions = [Motion.of(p, row) for row in p.rows]
+        motions = [PrintedMotion.of(p, row) for row in p.rows]
         return {f.kind for f in rule_findings(motions[-1], motions)}
 
-    alone, together = (Motion.of(p, p.rows[i]).peaks[0] for p in [paper("99")] for i in (0, 2))
+    alone, together = (PrintedMotion.of(p, p.rows[i]).peaks[0] for p in [paper("99")] for i in (0, 2))
     # "2.9" is 2.95 at most, "3" up to 3.5
     assert alone.high[1] < 2.8
     assert 2.95 < together.low[1] < together.high[1] < 3.01
@@ -198,7 +198,7 @@ def test_rounded_limits_alone_never_make_a_verdict() -> None:
             x * problem.waypoints[:, 0], s * t,
             velocity=shown[0], acceleration=shown[1], unit=unit,
         )  # fmt: skip
-        motion = Motion.of(paper, paper.rows[0])
+        motion = PrintedMotion.of(paper, paper.rows[0])
         naive += motion.verdict.stretch > 1.0 + 1e-5
         found_faults = faults(replace(paper))
         assert not found_faults, (run, shown, unit, found_faults)

@@ -12,9 +12,11 @@ from typing import Any
 import matplotlib.pyplot as plt
 import numpy as np
 import pytest
+from compare.papers.panels import Curve, panels
+from compare.papers.printed_motions import printed
 
-from compare.audit.paper_file import load_papers
-from compare.audit.printed import values
+from compare.audit.paper import load_papers, settings
+from compare.audit.paper.digits import values
 from compare.benchmark.objective import Objective, search_box
 from compare.benchmark.suite import PAPER_BUDGETS
 from compare.commands import shared as commands
@@ -22,11 +24,8 @@ from compare.papers import ITEMS, page
 from compare.papers import __main__ as papers
 from compare.papers.inverse import make_inverse
 from compare.papers.item import Item, Shown, Table
-from compare.papers.li_2022.evolution import evolution
+from compare.papers.li_2022.figure_5 import evolution
 from compare.papers.li_2022.paper import budget as budget_of_001
-from compare.papers.panels import Curve, panels
-from compare.papers.printed import tables
-from compare.papers.printed_motions import printed
 from compare.papers.wang_2025 import cec2017 as ablation
 from compare.papers.wang_2025 import swarm as sr4c_swarm
 from compare.papers.wang_2025 import table_8 as table8
@@ -70,29 +69,29 @@ def test_numbers_that_stand_in_two_files_are_the_same() -> None:
     paper = load_papers("sr4c")[0]
     for swarm, times in table8.PRINTED.items():
         assert times == [t.value.value for t in paper.totals if t.by == swarm]
-    protocol, settings = tables("sr4c")["ablation"], tables("sr4c")["swarm"]
+    protocol, swarm = settings("sr4c")["ablation"], settings("sr4c")["swarm"]
     full = ablation.FULL
     assert [full.population, full.dim, full.iterations, full.runs] == [
-        protocol[name] for name in ("particles", "dimensions", "iterations", "runs")
+        protocol[name] for name in ("population", "dimensions", "iterations", "runs")
     ]
     mipso = ALGORITHMS["mipso"].parameters
-    assert settings["alpha"] == tables("sr4c")["tent"]["alpha"] == mipso["lam"]
-    assert settings["inertia"] == [mipso["w_max"], mipso["w_min"]]
-    assert settings["mutation"] == [mipso["pm1"], mipso["pm2"]]
+    assert swarm["alpha"] == settings("sr4c")["tent"]["alpha"] == mipso["lam"]
+    assert swarm["inertia"] == [mipso["w_max"], mipso["w_min"]]
+    assert swarm["mutation"] == [mipso["pm1"], mipso["pm2"]]
     assert budget_of_000() == PAPER_BUDGETS["sr4c"]
 
     # the plans that the claimed savings start from
     for key in ("sr4c", "bagging"):
         claims = [c for c in load_papers(key)[0].claims if "first plan" in c.says]
-        assert [c.of[0].value for c in claims] == [sum(tables(key)["first_plan"]["times"])]
-    mpso, settings = ALGORITHMS["mpso"].parameters, tables("bagging")["swarm"]
-    assert settings["factors"] == [mpso["c_start"], mpso["c_end"]]
-    assert settings["inertia"] == [mpso["w_max"], mpso["w_min"]]
+        assert [c.of[0].value for c in claims] == [sum(settings(key)["first_plan"]["times"])]
+    mpso, swarm = ALGORITHMS["mpso"].parameters, settings("bagging")["swarm"]
+    assert swarm["factors"] == [mpso["c_start"], mpso["c_end"]]
+    assert swarm["inertia"] == [mpso["w_max"], mpso["w_min"]]
     assert budget_of_001() == PAPER_BUDGETS["bagging"]
     single = [row for row in load_papers("bagging")[0].rows if row.joint is not None]
-    assert tables("bagging")["box"]["seconds"][0] == min(values(row.times).min() for row in single)
+    assert settings("bagging")["box"]["seconds"][0] == min(values(row.times).min() for row in single)
     for key, names in (("ur5", "population"), ("cobot", "population"), ("z1", "population")):
-        swarm = tables(key)["swarm"]
+        swarm = settings(key)["swarm"]
         assert (swarm[names], swarm["iterations"]) == (
             PAPER_BUDGETS[key].population,
             PAPER_BUDGETS[key].iterations,
@@ -124,7 +123,7 @@ def test_the_tent_orbit_follows_its_formula() -> None:
     )
     assert sr4c_swarm.counts(np.array([[0.0], [1.0]]), 10)[:, 0].tolist() == [1, *[0] * 8, 1]
     data = sr4c_swarm.make_tent(False)
-    assert all(sum(found) == data["particles"] for found in data["counts"].values())
+    assert all(sum(found) == data["population"] for found in data["counts"].values())
     assert data["zeros"] > 0.8  # at 0.5 a double loses a bit at each of 500 steps
     # uniform numbers mapped once are uniform: the same scatter as without the map
     assert data["scatter"]["tent map, once on each"][1] == pytest.approx(

@@ -5,17 +5,17 @@ import re
 
 import numpy as np
 import pytest
+from compare.papers.descent import descent
 
+from compare.audit.paper import settings
 from compare.benchmark.grade import Trace
 from compare.benchmark.suite import Budget
 from compare.papers import ITEMS
-from compare.papers.descent import descent
-from compare.papers.lu_2024.chaos import one_orbit, orbit
+from compare.papers.lu_2024.figure_1 import one_orbit, orbit
 from compare.papers.lu_2024.plan import drawn_waypoints
 from compare.papers.measure import judged, least, listed, percent, summary, trials
-from compare.papers.printed import tables
-from compare.papers.zhang_2025.angles import make_angles
-from compare.papers.zhou_2025.angles import approach
+from compare.papers.zhang_2025.table_3 import make_angles
+from compare.papers.zhou_2025.table_2 import approach
 from formulations import load
 
 NAMED = {  # what the issue of this chapter names
@@ -43,7 +43,7 @@ def test_every_table_and_figure_is_made_again_once(paper):
 
 @pytest.mark.parametrize("paper", NAMED)
 def test_every_printed_table_says_where_it_stands(paper):
-    for table in tables(paper).values():
+    for table in settings(paper).values():
         assert re.search(r"sec\.|Table|Fig", table["where"])
 
 
