@@ -2,10 +2,9 @@
 
 from __future__ import annotations
 
-from dataclasses import replace
-
 import numpy as np
 import pytest
+from printed_papers import DEG, one_joint
 
 from compare.audit import Finding, Paper, audit, parse_papers
 from compare.audit.findings.claims import claims_of
@@ -16,48 +15,12 @@ from compare.audit.motion.minima import minimum
 from compare.audit.motion.printed_motion import PrintedMotion
 from formulations import Limits, Problem
 
-DEG = np.pi / 180.0
 
-
-def paper_of(
-    w: np.ndarray,
-    times: np.ndarray,
-    *,
-    velocity: str,
-    acceleration: str,
-    position: str = "",
-    unit: str = "rad",
-) -> Paper:
+def paper_of(w: np.ndarray, times: np.ndarray, **limits: str) -> Paper:
     """A paper of one joint; the limits stand as they are given: 90 is exact, "90" is rounded."""
-    rows = ", ".join(f'["{x:.6f}"]' for x in w)
-    shown = ", ".join(f'"{t:.6f}"' for t in times)
-    return parse_papers(
-        f"""
-family = "3-5-3"
-limited = ["velocity", "acceleration"]
-[waypoints]
-unit = "rad"
-rows = [{rows}]
-[[limits]]
-name = "T"
-unit = "{unit}"
-velocity = [{velocity}]
-acceleration = [{acceleration}]
-{position}
-[[table]]
-where = "R"
-limits = "T"
-joints = [1]
-times = [[{shown}]]
-totals = ["{times.sum():.6f}"]
-[[totals]]
-where = "S"
-limits = "T"
-joint = 1
-values = ["{times.sum():.6f}"]
-""",
-        "rounded",
-    )[0]
+    return one_joint(
+        (f'"{x:.6f}"' for x in w), (f'"{t:.6f}"' for t in times), f'"{times.sum():.6f}"', **limits
+    )
 
 
 def faults(paper: Paper) -> list[Finding]:
@@ -200,6 +163,6 @@ def test_rounded_limits_alone_never_make_a_verdict() -> None:
         )  # fmt: skip
         motion = PrintedMotion.of(paper, paper.rows[0])
         naive += motion.verdict.stretch > 1.0 + 1e-5
-        found_faults = faults(replace(paper))
+        found_faults = faults(paper)
         assert not found_faults, (run, shown, unit, found_faults)
     assert naive > 300  # taken as exact, the printed limits accuse a third of them
