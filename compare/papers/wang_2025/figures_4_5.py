@@ -132,7 +132,7 @@ def tent_figure(data: dict[str, Any]) -> Figure:
     """Draw the counts of one population each, and the even count."""
     figure, panels = plt.subplots(1, 3, figsize=(9.6, 2.7), sharey=True)
     edges = np.linspace(0.0, 1.0, data["bins"] + 1)
-    even = data["population"] / data["bins"]
+    even = data["particles"] / data["bins"]
     colours = (BLUE, ORANGE, GREEN)
     for axes, (name, found), colour in zip(panels, data["counts"].items(), colours, strict=True):
         axes.bar(

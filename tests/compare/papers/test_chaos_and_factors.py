@@ -21,7 +21,7 @@ def test_the_tent_orbit_follows_its_formula() -> None:
     )
     assert figures_4_5.counts(np.array([[0.0], [1.0]]), 10)[:, 0].tolist() == [1, *[0] * 8, 1]
     data = figures_4_5.make_tent(False)
-    assert all(sum(found) == data["population"] for found in data["counts"].values())
+    assert all(sum(found) == data["particles"] for found in data["counts"].values())
     assert data["zeros"] > 0.8  # at 0.5 a double loses a bit at each of 500 steps
     # uniform numbers mapped once are uniform: the same scatter as without the map
     assert data["scatter"]["tent map, once on each"][1] == pytest.approx(
