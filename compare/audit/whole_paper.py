@@ -74,6 +74,7 @@ def audit(paper: Paper, progress: Callable[[str], None] | None = None) -> Audit:
     Parameters
     ----------
     paper : Paper
+        What the paper prints.
     progress : callable, optional
         Called with a few words as the audit goes on.
 

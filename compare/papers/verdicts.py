@@ -144,6 +144,7 @@ def agrees(holds: bool) -> str:
     Parameters
     ----------
     holds : bool
+        Whether it does.
 
     Returns
     -------
@@ -159,6 +160,7 @@ def yes_no(holds: bool) -> str:
     Parameters
     ----------
     holds : bool
+        Whether it does.
 
     Returns
     -------
@@ -173,6 +175,7 @@ def smooth(*values: float) -> bool:
     Parameters
     ----------
     *values : float
+        Each has to be zero.
 
     Returns
     -------

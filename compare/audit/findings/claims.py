@@ -17,6 +17,7 @@ def claims_of(paper: Paper) -> list[Finding]:
     Parameters
     ----------
     paper : Paper
+        What the paper prints.
 
     Returns
     -------

@@ -36,6 +36,7 @@ def fits_other_limits(motion: PrintedMotion) -> Finding | None:
     Parameters
     ----------
     motion : PrintedMotion
+        The motion to judge.
 
     Returns
     -------
@@ -69,6 +70,7 @@ def fitted(motion: PrintedMotion) -> Array | None:
     Parameters
     ----------
     motion : PrintedMotion
+        The motion to judge.
 
     Returns
     -------
@@ -103,7 +105,9 @@ def total_findings(paper: Paper, totals: Sequence[Total]) -> list[Finding]:
     Parameters
     ----------
     paper : Paper
+        What the paper prints.
     totals : sequence of Total
+        Totals without a time vector.
 
     Returns
     -------
@@ -138,7 +142,9 @@ def too_fast(paper: Paper, total: Total, problem: Problem) -> bool:
     Parameters
     ----------
     paper : Paper
+        What the paper prints.
     total : Total
+        The total to judge.
     problem : Problem
         Gives the limits.
 
@@ -157,7 +163,9 @@ def table_findings(motions: Sequence[PrintedMotion], totals: Sequence[Total]) ->
     Parameters
     ----------
     motions : sequence of PrintedMotion
+        The paper's time vectors as motions.
     totals : sequence of Total
+        Totals without a time vector.
 
     Returns
     -------
@@ -193,6 +201,7 @@ def in_force(motion: PrintedMotion) -> Array | None:
     Parameters
     ----------
     motion : PrintedMotion
+        The motion to judge.
 
     Returns
     -------

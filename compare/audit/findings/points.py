@@ -20,6 +20,7 @@ def points_of(paper: Paper) -> list[Finding]:
     Parameters
     ----------
     paper : Paper
+        What the paper prints.
 
     Returns
     -------
@@ -38,6 +39,7 @@ def misses(paper: Paper, chain: Chain) -> list[float]:
     Parameters
     ----------
     paper : Paper
+        What the paper prints.
     chain : Chain
         The arm.
 

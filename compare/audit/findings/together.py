@@ -62,6 +62,7 @@ def ranking_findings(motions: Sequence[PrintedMotion]) -> list[Finding]:
     Parameters
     ----------
     motions : sequence of PrintedMotion
+        The paper's time vectors as motions.
 
     Returns
     -------

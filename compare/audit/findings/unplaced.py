@@ -17,6 +17,7 @@ def unplaced_findings(paper: Paper) -> list[Finding]:
     Parameters
     ----------
     paper : Paper
+        What the paper prints.
 
     Returns
     -------
@@ -61,6 +62,7 @@ def longest_with_stops(paper: Paper, derivatives: Array) -> float:
     Parameters
     ----------
     paper : Paper
+        What the paper prints.
     derivatives : Array, shape (3, dof) [rad/s, rad/s^2, rad/s^3]
         The limits.
 

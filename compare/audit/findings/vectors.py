@@ -24,6 +24,7 @@ def motion_findings(motion: PrintedMotion) -> list[Finding]:
     Parameters
     ----------
     motion : PrintedMotion
+        The motion to judge.
 
     Returns
     -------
@@ -39,6 +40,7 @@ def motion_faults(motion: PrintedMotion) -> list[Finding]:
     Parameters
     ----------
     motion : PrintedMotion
+        The motion to judge.
 
     Returns
     -------

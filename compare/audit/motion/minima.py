@@ -37,6 +37,7 @@ def minimum(problem: Problem) -> FamilyBound:
     Parameters
     ----------
     problem : Problem
+        The task.
 
     Returns
     -------
@@ -106,6 +107,7 @@ def crossing_times(problem: Problem, halves: Array) -> Array:
     Parameters
     ----------
     problem : Problem
+        The task.
     halves : Array, shape (n_waypoints, dof) [rad]
         Half units of the waypoints' last digits.
 

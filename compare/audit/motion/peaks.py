@@ -52,6 +52,7 @@ def peaks(problem: Problem, joint: int, halves: Array, times: Array, time_halves
     Parameters
     ----------
     problem : Problem
+        The task.
     joint : int
         From 0.
     halves : Array, shape (n_waypoints, dof) [rad]

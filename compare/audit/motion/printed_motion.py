@@ -44,7 +44,9 @@ class PrintedMotion:
         Parameters
         ----------
         paper : Paper
+            What the paper prints.
         row : PrintedTimes
+            The time vector.
 
         Returns
         -------
@@ -199,6 +201,7 @@ def joint_of(motion: PrintedMotion, j: int) -> int:
     Parameters
     ----------
     motion : PrintedMotion
+        The motion to judge.
     j : int
         The joint within the motion, from 0.
 
@@ -218,6 +221,7 @@ def limits_told(motion: PrintedMotion, limits: Array) -> str:
     motion : PrintedMotion
         Gives the unit.
     limits : Array, shape (3, dof) [rad/s, rad/s^2, rad/s^3]
+        Velocity, acceleration, jerk.
 
     Returns
     -------

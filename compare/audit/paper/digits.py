@@ -108,6 +108,7 @@ def values(numbers: Iterable[Printed]) -> Array:
     Parameters
     ----------
     numbers : iterable of Printed
+        As they are printed.
 
     Returns
     -------
@@ -122,6 +123,7 @@ def halves(numbers: Iterable[Printed]) -> Array:
     Parameters
     ----------
     numbers : iterable of Printed
+        As they are printed.
 
     Returns
     -------
@@ -139,6 +141,7 @@ def reach(numbers: Iterable[Printed]) -> Array:
     Parameters
     ----------
     numbers : iterable of Printed
+        As they are printed.
 
     Returns
     -------

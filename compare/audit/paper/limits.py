@@ -102,6 +102,7 @@ def with_limits(problem: Problem, derivatives: Array, position: Array | None = N
     Parameters
     ----------
     problem : Problem
+        The task.
     derivatives : Array, shape (3, dof) [rad/s, rad/s^2, rad/s^3]
         Velocity, acceleration, jerk; inf where there is no limit.
     position : Array, shape (dof, 2), optional [rad]

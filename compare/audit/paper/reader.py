@@ -33,6 +33,7 @@ def parse_papers(text: str, name: str) -> list[Paper]:
     Parameters
     ----------
     text : str
+        The TOML text.
     name : str
         Of the paper.
 

@@ -166,7 +166,9 @@ class Paper:
         ----------
         problem : Problem
             The task at the printed digits.
-        joint, limits
+        joint : int or None
+            As for ``problem``.
+        limits : str or None
             As for ``problem``.
 
         Returns
@@ -182,7 +184,9 @@ class Paper:
         ----------
         problem : Problem
             The task at the printed digits.
-        joint, limits
+        joint : int or None
+            As for ``problem``.
+        limits : str or None
             As for ``problem``.
 
         Returns

@@ -15,6 +15,7 @@ def amount(paper: Paper, value: float, order: int) -> str:
     paper : Paper
         Gives the unit of angle.
     value : float [rad/s^order]
+        The number.
     order : int
         0 for position, 1 for velocity, and so on.
 
@@ -32,6 +33,7 @@ def number(value: float) -> str:
     Parameters
     ----------
     value : float
+        The number.
 
     Returns
     -------
@@ -48,6 +50,7 @@ def percent(ratio: float) -> str:
     Parameters
     ----------
     ratio : float
+        1 is the whole.
 
     Returns
     -------

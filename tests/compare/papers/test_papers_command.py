@@ -60,7 +60,10 @@ def test_failing_items_have_a_status_and_cost_no_other_item(
     options = ("sr4c", "--out", str(tmp_path), "--jobs", "1")
     assert run(monkeypatch, *options) == 1
     errors = capsys.readouterr().err
-    assert "sr4c: Table 2: failed: ArithmeticError: planted <fault> (test_papers_command.py, line" in errors
+    assert (
+        "sr4c: Table 2: failed: ArithmeticError: planted <fault> (test_papers_command.py, line"
+        in errors
+    )
     assert "sr4c: Table 3: died: its process ended" in errors
     folder = tmp_path / "papers" / "sr4c"
     stored = {path.stem: json.loads(path.read_text("utf-8")) for path in folder.glob("*.json")}

@@ -59,7 +59,9 @@ def test_times_orders_and_shares() -> None:
 
 
 def test_no_verdict_is_typed_into_a_text() -> None:
-    typed = re.compile(r"not reproduced|reproduced in kind|not as claimed|reproduced, but|(?<![.\d])00[0-4]\b", re.I)
+    typed = re.compile(
+        r"not reproduced|reproduced in kind|not as claimed|reproduced, but|(?<![.\d])00[0-4]\b", re.I
+    )
     (folder,) = compare.papers.__path__
     for path in Path(folder).rglob("*.py"):
         if path.name == "verdicts.py":
@@ -336,7 +338,9 @@ def test_zhang_table_4() -> None:
     assert "keeps 100 deg/s: no" in told[2]
 
 
-@pytest.mark.parametrize(("factor", "verdict"), [(1.0, "not reproduced"), (1.0 / 0.05, "reproduced in kind")])
+@pytest.mark.parametrize(
+    ("factor", "verdict"), [(1.0, "not reproduced"), (1.0 / 0.05, "reproduced in kind")]
+)
 def test_zhang_figure_6(factor: float, verdict: str) -> None:
     def swarm(end: float) -> dict[str, Any]:
         descent = {"iterations": [0.0, 1.0], "quartiles": [[2.0 * end, end]] * 3}

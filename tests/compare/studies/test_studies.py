@@ -166,7 +166,9 @@ def test_a_planted_strategy_is_found_and_nothing_else() -> None:
         for swarm in ("mipso", *ablation.STRATEGIES):
             worse = 3.0 if swarm == "mipso-pso3" else 1.0
             rows += [
-                ablation.AblationRun(number, swarm, seed, 100 * number + worse * (10 + rng.normal()), 1, "ok")
+                ablation.AblationRun(
+                    number, swarm, seed, 100 * number + worse * (10 + rng.normal()), 1, "ok"
+                )
                 for seed in range(12)
             ]
     summary = ablation.summarise(rows)
