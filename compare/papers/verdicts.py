@@ -16,8 +16,8 @@ CLOSE = 0.25
 """Two gains count as the same if they differ by at most this, relative."""
 NO_GAIN = 1e-3
 """A method that is shorter by less than this, relative, has gained nothing."""
-EVEN = 0.1
-"""A share of wins that is at most this far from one half shows no difference."""
+WIDTH = 1.96
+"""Standard deviations that a share of wins has to be away from one half to show a difference."""
 AT_A_LIMIT = 0.01
 """A peak is at a limit if it differs from it by at most this, relative."""
 BEST = 1e-3
@@ -120,21 +120,23 @@ def same_order(values: Sequence[float]) -> Outcome:
     return Outcome.REPRODUCED if rising else Outcome.NOT
 
 
-def more_often(share: float) -> str:
+def more_often(share: float, pairs: int) -> str:
     """Say whether one of two is the better one, by the share of pairs in which it is.
 
     Parameters
     ----------
     share : float
         From 0 to 1; 0.5 is no difference.
+    pairs : int
+        How many independent pairs there are.
 
     Returns
     -------
     str
-        more often, less often, or neither more nor less often.
+        more often, less often, or not more often beyond chance.
     """
-    if abs(share - 0.5) <= EVEN:
-        return "neither more nor less often"
+    if abs(share - 0.5) <= WIDTH * 0.5 / pairs**0.5:
+        return "not more often beyond chance"
     return "more often" if share > 0.5 else "less often"
 
 

@@ -108,10 +108,10 @@ def show_tent(data: dict[str, Any]) -> Shown:
     tent, random, once = (data["scatter"][name][1] for name in names)
     quarter_random, quarter_orbit = data["scatter"][names[1]][0], data["scatter"][names[0]][2]
     remarks = [
-        f"The paper shows the population of the tent map as the more even one. Reproduced, of "
+        "The paper shows the population of the tent map as the more even one. Reproduced: of "
         f"{data['starts']} pairs of populations it is the more even one in {100 * data['pairs']:.0f} %, "
-        f"{more_often(data['pairs'])} than the random one (50 % is no difference). The median scatter is "
-        f"{tent:.2f} against {random:.2f}; independent numbers have about {data['expected']:.2f}.",
+        f"{more_often(data['pairs'], data['starts'])} than the random one (50 % is no difference). The median "
+        f"scatter is {tent:.2f} against {random:.2f}; independent numbers have about {data['expected']:.2f}.",
         f"A quarter of the random populations scatters by less than {quarter_random:.2f}, a quarter of the "
         f"orbits by more than {quarter_orbit:.2f}: a single pair of histograms, as printed, "
         + (

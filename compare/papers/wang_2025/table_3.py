@@ -54,12 +54,12 @@ def show_ablation(data: dict[str, Any]) -> Shown:
     for swarm, strategy in ablation.STRATEGIES.items():
         o, found = summary["overall"][swarm], entries[swarm].values()
         least = min(e["printed"] for e in found)
+        shown = "no effect is shown" if o["verdict"] == "not shown" else f"it {o['verdict']}"
         remarks.append(
             f"Without {strategy}: the printed factors are all at least {least:.2f}. Reproduced, the strategy "
             f"helps on {o['helps']} of {len(found)} functions and hurts on {o['hurts']}; on "
-            f"{o['no difference']} no difference is "
-            f"shown. Over all functions: {o['verdict']} (geometric mean over f - f* "
-            f"{o['geometric_mean']:.3f}, p = {o['p_holm']:.2g})."
+            f"{o['no difference']} no difference is shown. Over all functions {shown} (geometric mean over "
+            f"f - f* {o['geometric_mean']:.3f}, p = {o['p_holm']:.2g})."
         )
     pairs = [(e["raw"], e["printed"], e["factor"]) for fs in entries.values() for e in fs.values()]
     apart = [abs(raw - printed) for raw, printed, _ in pairs]

@@ -51,11 +51,12 @@ def test_times_orders_and_shares() -> None:
     assert same_gains([0.2, 0.2], [0.05, -0.2]) is Outcome.NOT
     assert same_order([1.0, 2.0, 3.0]) is Outcome.REPRODUCED
     assert same_order([1.0, 1.0, 3.0]) is Outcome.NOT
-    assert [more_often(share) for share in (0.9, 0.52, 0.2)] == [
+    assert [more_often(share, 1000) for share in (0.56, 0.52, 0.2)] == [
         "more often",
-        "neither more nor less often",
+        "not more often beyond chance",
         "less often",
     ]
+    assert more_often(0.56, 100) == "not more often beyond chance"
 
 
 def test_no_verdict_is_typed_into_a_text() -> None:
@@ -110,12 +111,14 @@ def test_wang_table_8() -> None:
 
 def test_wang_figures_4_and_5() -> None:
     data = figures_4_5.make_tent(False)
-    assert "decides nothing" in " ".join(figures_4_5.show_tent(data).remarks)
+    told = " ".join(figures_4_5.show_tent(data).remarks)
+    assert "decides nothing" in told
+    assert "56 %, more often" in told
     other = copy.deepcopy(data)
-    other["pairs"] = 0.97
+    other["pairs"] = 0.51
     other["scatter"]["tent map, one orbit"][2] = 0.5 * other["scatter"]["random"][0]
     told = " ".join(figures_4_5.show_tent(other).remarks)
-    assert "97 %, more often" in told
+    assert "51 %, not more often beyond chance" in told
     assert "is enough to tell them apart" in told
     factors = figures_4_5.make_factors(False)
     assert "does not do what the text says" in figures_4_5.show_factors(factors).remarks[1]
@@ -290,9 +293,9 @@ def test_lu_figures_6_to_8() -> None:
     # printed: 11.71 against 13.08 s, 10.5 % shorter
     near, kind, other = lu(9.0, 10.0, (8.9, 9.9)), lu(9.8, 10.0, (8.0, 8.1)), lu(10.0, 9.0, (9.9, 8.9))
     assert near[1].startswith("Reproduced: the B-spline is 10.0")
-    assert "comes from the spline" in near[2]
+    assert "the B-spline is 10.1\u00a0% shorter, 101 % of the difference above" in near[2]
     assert kind[1].startswith("Reproduced in kind: the B-spline is 2.0")
-    assert "The spline alone does not explain" in kind[2]
+    assert "the B-spline is 1.2\u00a0% shorter, 62 % of the difference above" in kind[2]
     assert other[1].startswith("Not reproduced: the B-spline is 11.1")
     assert "longer than the quintic" in other[1]
     assert "shorter one on 0" in other[3]
