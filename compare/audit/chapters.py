@@ -6,6 +6,7 @@ from collections.abc import Iterable
 from typing import Any
 
 from compare.audit.findings import FAULTS, NOTES
+from compare.audit.judged import JudgedTimes
 
 _PROVED = 1e-4  # relative gap below which an optimum counts as proved in a table
 
@@ -40,7 +41,10 @@ def chapter(audits: Iterable[dict[str, Any]]) -> list[dict[str, Any]]:
             "notes": data["notes"],
             "header": HEADER,
             "caption": CAPTION,
-            "rows": [{"cells": cells(row), "feasible": row["feasible"]} for row in data["motions"]],
+            "rows": [
+                {"cells": cells(row), "feasible": row.feasible}
+                for row in (JudgedTimes(**motion) for motion in data["motions"])
+            ],
             "faults": _by_kind(data, FAULTS),
             "notes_found": _by_kind(data, NOTES),
         }
@@ -48,23 +52,23 @@ def chapter(audits: Iterable[dict[str, Any]]) -> list[dict[str, Any]]:
     ]
 
 
-def cells(row: dict[str, Any]) -> list[str]:
+def cells(row: JudgedTimes) -> list[str]:
     """Write one time vector as text.
 
     Parameters
     ----------
-    row : dict
-        One of the motions of ``Audit.to_json``.
+    row : JudgedTimes
+        As the audit or the store gives it.
 
     Returns
     -------
     list of str
         In the order of ``HEADER``.
     """
-    shown = ["-" if row[key] is None else f"{row[key]:.4f}" for key in ("stretch", "honest")]
-    for least, best in (("minimum", "optimum"), ("implied_minimum", "implied_optimum")):
-        shown.append(_proved(row[least], row[best]))
-    return [str(row["where"]), f"{row['total']:.4f}", str(row["feasible"]), *shown]
+    factor, honest = ("-" if value is None else f"{value:.4f}" for value in (row.stretch, row.honest))
+    stated = _proved(row.minimum, row.optimum)
+    own = _proved(row.implied_minimum, row.implied_optimum)
+    return [row.where, f"{row.total:.4f}", row.feasible, factor, honest, stated, own]
 
 
 def _proved(least: float | None, best: float | None) -> str:

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Callable, Sequence
-from dataclasses import dataclass
+from dataclasses import asdict, dataclass
 from typing import Any
 
 import numpy as np
@@ -16,6 +16,7 @@ from compare.audit.findings.points import points_of
 from compare.audit.findings.together import ranking_findings, rule_findings
 from compare.audit.findings.unplaced import unplaced_findings
 from compare.audit.findings.vectors import motion_findings
+from compare.audit.judged import JudgedTimes
 from compare.audit.motion.printed_motion import PrintedMotion
 from compare.audit.motion.ranged import Undecided
 from compare.audit.paper import Paper
@@ -40,9 +41,9 @@ class Audit:
         """What is not wrong."""
         return [f for f in self.findings if not f.fault]
 
-    def rows(self) -> list[dict[str, Any]]:
-        """One row per time vector, plain data; angles in the paper's unit, times in s."""
-        return [_row(motion) for motion in self.motions]
+    def rows(self) -> list[JudgedTimes]:
+        """One record per time vector."""
+        return [_judged(motion) for motion in self.motions]
 
     def to_json(self) -> dict[str, Any]:
         """Everything as strict JSON."""
@@ -52,7 +53,7 @@ class Audit:
             "source": self.paper.source,
             "notes": self.paper.notes,
             "unit": self.paper.unit,
-            "motions": self.rows(),
+            "motions": [asdict(row) for row in self.rows()],
             "findings": [
                 {
                     "kind": f.kind,
@@ -119,46 +120,38 @@ def _no_limits(motions: Sequence[PrintedMotion]) -> Finding:
     return Finding(paper.name, "missing", "limits", text)
 
 
-def _row(motion: PrintedMotion) -> dict[str, Any]:
+def _judged(motion: PrintedMotion) -> JudgedTimes:
     """The numbers of one time vector."""
     paper, row = motion.paper, motion.row
-    angle = paper.angle
-    optimum = motion.optimum
-    implied = motion.implied_optimum
+    optimum, implied = motion.optimum, motion.implied_optimum
     low, printed, high = motion.stretch if motion.stated else (None, None, None)
-    return {
-        "where": row.where,
-        "by": row.by,
-        "joint": None if row.joint is None else row.joint + 1,
-        "times": [t.text for t in row.times],
-        "total": motion.total,
-        "printed_total": None if row.total is None else row.total.text,
-        "limits": row.limits,
-        "feasible": _word(motion),
-        "velocity": _shown([p.printed[0] / angle for p in motion.peaks]),
-        "acceleration": _shown([p.printed[1] / angle for p in motion.peaks]),
-        "jerk": _shown([p.printed[2] / angle for p in motion.peaks]),
-        "stretch": printed,
-        "stretch_low": low,
-        "stretch_high": high,
-        "honest": motion.honest if motion.stated else None,
-        "minimum": None if optimum is None else optimum.seconds,
-        "optimum": None if optimum is None else optimum.upper,
-        "implied": [_shown(line / angle) for line in motion.implied],
-        "implied_minimum": implied.seconds,
-        "implied_optimum": implied.upper,
-        "implied_gap": motion.implied_gap if math.isfinite(motion.implied_gap) else None,
-        "displacement": _displacement(motion),
-    }
-
-
-def _word(motion: PrintedMotion) -> str:
-    """Whether the stated limits are kept, in a word: yes, no, within rounding, or no limits."""
-    if not motion.stated:
-        return "no limits"
-    if motion.breaks:
-        return "no"
-    return "yes" if motion.keeps else "within rounding"
+    velocity, acceleration, jerk = (
+        _shown([p.printed[order] / paper.angle for p in motion.peaks]) for order in range(3)
+    )
+    return JudgedTimes(
+        where=row.where,
+        by=row.by,
+        joint=None if row.joint is None else row.joint + 1,
+        times=[t.text for t in row.times],
+        total=motion.total,
+        printed_total=None if row.total is None else row.total.text,
+        limits=row.limits,
+        feasible=motion.kept.value,
+        velocity=velocity,
+        acceleration=acceleration,
+        jerk=jerk,
+        stretch=printed,
+        stretch_low=low,
+        stretch_high=high,
+        honest=motion.honest if motion.stated else None,
+        minimum=None if optimum is None else optimum.seconds,
+        optimum=None if optimum is None else optimum.upper,
+        implied=[_shown(line / paper.angle) for line in motion.implied],
+        implied_minimum=implied.seconds,
+        implied_optimum=implied.upper,
+        implied_gap=motion.implied_gap if math.isfinite(motion.implied_gap) else None,
+        displacement=_displacement(motion),
+    )
 
 
 def _displacement(motion: PrintedMotion) -> float:

@@ -165,13 +165,12 @@ def judged_row(paper: Paper, row: PrintedTimes) -> dict[str, Any]:
         (``used_most``).
     """
     motion = PrintedMotion.of(paper, row)
-    keeps = "no" if motion.breaks else "yes" if motion.keeps else "within rounding"
     return {
         "where": row.where,
         "times": [str(time) for time in row.times],
         "total": None if row.total is None else str(row.total),
         "seconds": motion.total,
-        "keeps": keeps,
+        "keeps": motion.kept.value,
         "stretch": motion.verdict.stretch,
         "most": used_most(motion.verdict),
     }

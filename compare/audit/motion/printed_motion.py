@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
+from enum import StrEnum
 from functools import cached_property
 
 import numpy as np
@@ -16,6 +17,16 @@ from compare.audit.paper.words import amount, number
 from formulations import FAMILIES, FamilyBound, Problem, Verdict, check
 from formulations.motion.trajectory import QUANTITIES, TOLERANCE
 from formulations.problem.arrays import Array
+
+
+class Kept(StrEnum):
+    """Whether a motion keeps its stated limits; the value is the word that people read."""
+
+    YES = "yes"
+    NO = "no"
+    WITHIN_ROUNDING = "within rounding"
+    NO_LIMITS = "no limits"
+
 
 ROOTS = np.array([1.0, 0.5, 1.0 / 3.0])[:, None]  # a stretch by f divides derivative k by f^k
 
@@ -143,6 +154,15 @@ class PrintedMotion:
     def keeps(self) -> bool:
         """Whether it keeps the stated limits for every reading of the digits."""
         return self.stated and self.stretch[2] <= 1.0 + TOLERANCE
+
+    @property
+    def kept(self) -> Kept:
+        """Whether it keeps the stated limits: for every reading, for some, for none."""
+        if not self.stated:
+            return Kept.NO_LIMITS
+        if self.breaks:
+            return Kept.NO
+        return Kept.YES if self.keeps else Kept.WITHIN_ROUNDING
 
     @cached_property
     def impossible(self) -> bool:

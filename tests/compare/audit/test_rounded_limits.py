@@ -50,8 +50,10 @@ def test_an_honest_optimum_under_120_deg_is_not_accused_when_2_09_rad_is_printed
     rounded = paper_of(W, times, velocity="9", acceleration='"2.09"')
     assert faults(rounded) == []
     row = audit(rounded).rows()[0]
-    assert row["feasible"] == "within rounding"
-    assert row["stretch_low"] <= 1.0 <= row["stretch_high"]
+    assert row.feasible == "within rounding"
+    assert row.stretch_low is not None
+    assert row.stretch_high is not None
+    assert row.stretch_low <= 1.0 <= row.stretch_high
     # as exact numbers the same digits do accuse it
     exact = paper_of(W, times, velocity="9", acceleration="2.09")
     assert {finding.kind for finding in faults(exact)} == {"limits", "minimum"}
