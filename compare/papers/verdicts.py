@@ -35,10 +35,6 @@ class Outcome(StrEnum):
     IN_KIND = "Reproduced in kind"
     NOT = "Not reproduced"
 
-    def __bool__(self) -> bool:
-        """Whether it is reproduced, at least in kind."""
-        return self is not Outcome.NOT
-
     @property
     def inside(self) -> str:
         """The outcome within a sentence: not reproduced."""
