@@ -11,10 +11,10 @@ from matplotlib.figure import Figure
 
 @dataclass(frozen=True)
 class Table:
-    """Attributes
-    ----------
-    table of a page; every cell is text, printed beside reproduced.
+    """A table of a page; every cell is text, printed beside reproduced.
 
+    Attributes
+    ----------
     header : sequence of str
         Names of the columns.
     rows : sequence of (sequence of str)
@@ -49,10 +49,10 @@ class Shown:
 
 @dataclass(frozen=True)
 class Item:
-    """Attributes
-    ----------
-    table or figure of a paper, made again.
+    """A table or figure of a paper, made again.
 
+    Attributes
+    ----------
     label : str
         As the paper calls it: "Table 8", "Figs 8-10".
     title : str

@@ -28,16 +28,12 @@ SMOOTH = 1e-6
 """Jumps and end values up to this are rounding [rad, rad/s, rad/s^2, or the same in deg]."""
 
 
-class Outcome(StrEnum):
+class Reproduction(StrEnum):
     """What is left of something printed; the text begins a sentence."""
 
     REPRODUCED = "Reproduced"
     IN_KIND = "Reproduced in kind"
     NOT = "Not reproduced"
-
-    def __bool__(self) -> bool:
-        """Whether it is reproduced, at least in kind."""
-        return self is not Outcome.NOT
 
     @property
     def inside(self) -> str:
@@ -47,7 +43,7 @@ class Outcome(StrEnum):
 
 def same_times(
     printed: Sequence[float], found: Sequence[float], impossible: Sequence[bool] = ()
-) -> Outcome:
+) -> Reproduction:
     """Judge printed times by reproduced ones.
 
     Parameters
@@ -59,16 +55,16 @@ def same_times(
 
     Returns
     -------
-    Outcome
+    Reproduction
         Not reproduced if a printed time is impossible or differs by more than ``SAME``.
     """
     if any(impossible):
-        return Outcome.NOT
+        return Reproduction.NOT
     near = all(abs(f / p - 1.0) <= SAME for p, f in zip(printed, found, strict=True))
-    return Outcome.REPRODUCED if near else Outcome.NOT
+    return Reproduction.REPRODUCED if near else Reproduction.NOT
 
 
-def same_gain(printed: float, found: float) -> Outcome:
+def same_gain(printed: float, found: float) -> Reproduction:
     """Judge by how much one method is better than another.
 
     Parameters
@@ -78,16 +74,16 @@ def same_gain(printed: float, found: float) -> Outcome:
 
     Returns
     -------
-    Outcome
+    Reproduction
         Reproduced if both differ by at most ``CLOSE``; in kind if the same method is better, by at least
         ``NO_GAIN``.
     """
     if abs(found - printed) <= CLOSE * abs(printed):
-        return Outcome.REPRODUCED
-    return Outcome.IN_KIND if found * printed > 0.0 and abs(found) >= NO_GAIN else Outcome.NOT
+        return Reproduction.REPRODUCED
+    return Reproduction.IN_KIND if found * printed > 0.0 and abs(found) >= NO_GAIN else Reproduction.NOT
 
 
-def same_gains(printed: Sequence[float], found: Sequence[float]) -> Outcome:
+def same_gains(printed: Sequence[float], found: Sequence[float]) -> Reproduction:
     """Judge several gains together.
 
     Parameters
@@ -97,14 +93,14 @@ def same_gains(printed: Sequence[float], found: Sequence[float]) -> Outcome:
 
     Returns
     -------
-    Outcome
+    Reproduction
         The worst of the single outcomes.
     """
-    order = (Outcome.NOT, Outcome.IN_KIND, Outcome.REPRODUCED)
+    order = (Reproduction.NOT, Reproduction.IN_KIND, Reproduction.REPRODUCED)
     return min((same_gain(p, f) for p, f in zip(printed, found, strict=True)), key=order.index)
 
 
-def same_order(values: Sequence[float]) -> Outcome:
+def same_order(values: Sequence[float]) -> Reproduction:
     """Judge a printed order of methods, best first.
 
     Parameters
@@ -114,10 +110,10 @@ def same_order(values: Sequence[float]) -> Outcome:
 
     Returns
     -------
-    Outcome
+    Reproduction
     """
     rising = all(a < b for a, b in pairwise(values))
-    return Outcome.REPRODUCED if rising else Outcome.NOT
+    return Reproduction.REPRODUCED if rising else Reproduction.NOT
 
 
 def more_often(share: float, pairs: int) -> str:

@@ -1,4 +1,4 @@
-"""One finding of an audit, the kinds of finding in plain words, and numbers written for people."""
+"""One finding of an audit, and the kinds of finding in plain words."""
 
 from __future__ import annotations
 
@@ -9,13 +9,13 @@ FAULTS: dict[str, str] = {
     "displacement": "faster than displacement over velocity limit",
     "minimum": "below the certified minimum of its spline",
     "limits": "breaks the limits it states",
-    "other limits": "other limits than the stated ones fit",
+    "other limits": "the result fits other limits than the stated ones",
     "tables": "too fast for the limits that another result of the same paper fits",
-    "rule": "the longest time per segment does not keep what each joint alone keeps",
-    "ranking": "made feasible, the order of the methods changes",
+    "rule": "the longest time per segment breaks limits that each joint alone keeps",
+    "ranking": "the order of the methods changes once their motions keep the limits",
     "sum": "the arithmetic does not add up",
     "point": "joint angles and Cartesian point disagree",
-    "reach": "a point out of the arm's reach",
+    "reach": "a point is out of the arm's reach",
     "table": "the printed arm does not lead to the printed points",
 }
 IN_SHORT: dict[str, str] = {
@@ -35,7 +35,7 @@ NOTES: dict[str, str] = {
     "missing": "cannot be judged",
     "keeps": "keeps its limits",
     "rounding": "keeps its limits as far as the printed digits tell",
-    "slow": "beside the best motion under the limits that it reaches itself",
+    "slow": "compared with the best motion under the limits that it reaches itself",
     "offsets": "joint offsets are not printed",
 }
 

@@ -231,8 +231,8 @@ def _contradiction(
     least = bound.seconds
     text = (
         f"{which} {seconds:.4f} s, {percent(1.0 - seconds / least)} below the certified minimum of "
-        f"{least:.4f} s for {limits_told(motion, limits)}, the limits that {motion.row.where} fits: "
-        f"not made under those"
+        f"{least:.4f} s for {limits_told(motion, limits)}. {motion.row.where} fits these limits, so the "
+        f"two were not made under the same ones"
     ).strip()
     numbers = {"seconds": seconds, "minimum": least, "gap": seconds / least - 1.0}
     return Finding(motion.paper.name, "tables", where, text, numbers=numbers)

@@ -62,7 +62,7 @@ def _judged(paper: Paper, arm: Arm, point: Point) -> list[Finding]:
     assert paper.halves is not None
     q, h = paper.waypoints[point.waypoint], paper.halves[point.waypoint]
     pose, wanted = arm.chain.forward(q), _position(point)
-    # first order in the half-units, and what second order can add: an arc of its whole length
+    # first order in the half units, plus a bound of the second order: an arc of the whole arm's length
     jacobian = np.abs(arm.chain.jacobian(q)[:3])
     length = np.abs(arm.chain.d).sum() + np.abs(arm.chain.a).sum()
     allowed = jacobian @ h + 0.5 * h.sum() ** 2 * length + halves(point.position) * point.metre

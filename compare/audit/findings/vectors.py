@@ -78,7 +78,7 @@ def _position(motion: PrintedMotion) -> list[Finding]:
             if over > problem.position_slack:
                 text = (
                     f"joint {joint_of(motion, j)} goes to {amount(paper, float(value), 0)} or beyond, "
-                    f"limit {amount(paper, float(limit), 0)}; no slowing down mends that"
+                    f"limit {amount(paper, float(limit), 0)}; slowing down does not mend that"
                 )
                 found.append(Finding(paper.name, "limits", motion.row.where, text))
     return found
@@ -88,9 +88,8 @@ def _slow(motion: PrintedMotion) -> Finding:
     """Compare a motion without stated limits with the optimum under the limits that it reaches itself."""
     bound = motion.implied_optimum
     text = (
-        f"{motion.total:.4f} s is {number(motion.total / bound.upper)} times the best motion under the "
-        f"limits that the motion itself needs ({bound.upper:.4f} s for "
-        f"{limits_told(motion, motion.implied)})"
+        f"{motion.total:.4f} s is {number(motion.total / bound.upper)} times the best time under the limits "
+        f"that the motion itself needs ({bound.upper:.4f} s for {limits_told(motion, motion.implied)})"
     )
     return Finding(motion.paper.name, "slow", motion.row.where, text)
 
@@ -124,7 +123,7 @@ def _minimum(motion: PrintedMotion) -> Finding:
 
 def _limits(motion: PrintedMotion) -> Finding:
     paper, problem = motion.paper, motion.problem
-    # the peak that asks for most slowing down
+    # the peak that needs the largest stretch
     need = (motion.least / motion.loosest.limits.derivatives) ** ROOTS
     order, j = (int(i) for i in np.unravel_index(int(need.argmax()), need.shape))
     value, least = float(motion.peaks[j].printed[order]), float(motion.least[order, j])
@@ -152,6 +151,6 @@ def _kept(motion: PrintedMotion) -> Finding:
     gap = motion.total / bound.upper - 1.0 if bound.upper > 0.0 else 0.0
     above = f"{percent(gap)} above the optimum" if gap > 0.0 else "at the optimum"
     kind = "keeps" if motion.verdict.stretch <= 1.0 + TOLERANCE else "rounding"
-    word = "keeps" if kind == "keeps" else "keeps, as far as the digits tell,"
+    word = "keeps" if kind == "keeps" else "keeps, within rounding,"
     text = f"{motion.total:.4f} s {word} the limits of {motion.row.limits}; {above}"
     return Finding(motion.paper.name, kind, motion.row.where, text)

@@ -32,8 +32,6 @@ class Peaks:
         At the printed digits.
     low, high : Array
         Over every reading of the digits.
-    piece : tuple of int
-        The piece that has each peak, from 0.
     range_low, range_high : Array, shape (2,) [rad]
         Least and greatest position, each as an outer and an inner bound.
     """
@@ -41,7 +39,6 @@ class Peaks:
     printed: Array
     low: Array
     high: Array
-    piece: tuple[int, int, int]
     range_low: Array
     range_high: Array
 
@@ -77,7 +74,6 @@ def peaks(problem: Problem, joint: int, halves: Array, times: Array, time_halves
     lengths, pieces = _on_ranges(one, halves[:, joint], times, time_halves)
     degrees = family.degrees(problem.n_segments)
     printed, low, high = np.zeros(3), np.zeros(3), np.zeros(3)
-    where = [0, 0, 0]
     bounds = np.zeros((2, 2))
     starts = np.concatenate([[0.0], np.cumsum([float(np.mean(t.value)) for t in lengths])])
     for order in range(4):
@@ -93,10 +89,10 @@ def peaks(problem: Problem, joint: int, halves: Array, times: Array, time_halves
             bounds[1] = max(v.lo for v in most), (top + reach).max()
             continue
         size = np.maximum(-bottom, top)
-        printed[order - 1], where[order - 1] = size.max(), int(size.argmax())
+        printed[order - 1] = size.max()
         low[order - 1] = max(0.0, *(-v.hi for v in least), *(v.lo for v in most))
         high[order - 1] = (size + reach).max() * (1.0 + _DUST)
-    return Peaks(printed, low, high, (where[0], where[1], where[2]), bounds[0], bounds[1])
+    return Peaks(printed, low, high, bounds[0], bounds[1])
 
 
 def _on_ranges(

@@ -28,10 +28,10 @@ class Undecided(ArithmeticError):  # noqa: N818
 
 
 class Ranged:
-    """Attributes
-    ----------
-    number that depends on m rounded ones.
+    """A number that depends on m rounded ones.
 
+    Attributes
+    ----------
     lo, hi : float
         Its range.
     value : tuple of float

@@ -11,7 +11,7 @@ from scipy.stats import qmc
 
 from compare.audit.paper import settings
 from compare.papers.item import Item, Shown, Table
-from compare.papers.verdicts import Outcome
+from compare.papers.verdicts import Reproduction
 from compare.papers.words import percent
 from compare.report.style import BLUE, VERMILION, styled
 from formulations.problem.arrays import Array
@@ -158,7 +158,7 @@ def show_chaos(data: dict[str, Any]) -> Shown:
         [chaos_figure(data), Table(header, rows, caption, range(1, 6))],
         [
             f"That a chaotic start is more even than a random one is "
-            f"{(Outcome.REPRODUCED if more_even else Outcome.NOT).inside}: its median discrepancy is "
+            f"{(Reproduction.REPRODUCED if more_even else Reproduction.NOT).inside}: its median discrepancy is "
             f"{chaotic:.4f}, that of random numbers is {plain:.4f}, and half of all random starts lie between "
             f"{low:.4f} and {high:.4f}.",
             "With one orbit through all numbers every individual lies on the graph of the map, two straight "

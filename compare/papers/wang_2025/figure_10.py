@@ -15,7 +15,7 @@ from compare.benchmark.suite import Budget
 from compare.papers.item import Item, Shown, Table
 from compare.papers.measure import trials
 from compare.papers.pictures.descent import descent, draw_descent
-from compare.papers.verdicts import Outcome, same_order, same_times
+from compare.papers.verdicts import Reproduction, same_order, same_times
 from compare.papers.wang_2025.joint_1 import IN_FORCE, LIMITS, PRINTED, TABLE_6, bounds, joint_1
 from compare.papers.wang_2025.paper import ALONE, SWARM, budget
 from compare.papers.words import above, seconds
@@ -78,7 +78,7 @@ def show_fig_10(data: dict[str, Any]) -> Shown:
     ]
     if median[SWARM] is not None and data["table_6"] is not None:
         meant = any(
-            same_times([mean], [data["table_6"]]) is Outcome.REPRODUCED for mean in means.values()
+            same_times([mean], [data["table_6"]]) is Reproduction.REPRODUCED for mean in means.values()
         )
         remarks.append(
             f"Under the {stated:.0f} deg/s² of Table 6 the same runs end at {data['table_6']:.4f} s. The times "

@@ -10,7 +10,7 @@ import numpy as np
 from compare.audit.paper.digits import values
 from compare.papers.inverse import make_inverse
 from compare.papers.item import Item, Shown, Table
-from compare.papers.verdicts import Outcome
+from compare.papers.verdicts import Reproduction
 from compare.papers.words import triple
 from compare.papers.zhang_2025.paper import paper
 from formulations.arms import load_arm
@@ -63,7 +63,7 @@ def show_angles(data: dict[str, Any]) -> Shown:
     apart = np.abs(np.subtract([p["found"] for p in points], [p["printed"] for p in points]))
     worst = int(apart.max(axis=1).argmax())
     others = sorted(p["miss"] for p in points)[-2]
-    outcome = Outcome.REPRODUCED if fitted <= _FITS else Outcome.NOT
+    outcome = Reproduction.REPRODUCED if fitted <= _FITS else Reproduction.NOT
     by = "the arm as printed" if min(misses) <= _FITS else "another arm than the printed one"
     return Shown(
         [places, angles],

@@ -15,7 +15,7 @@ from compare.papers.measure import judged, least, spline, summary, trials
 from compare.papers.pictures.descent import descent, draw_descent
 from compare.papers.pictures.panels import all_joints, panels, verdict_told
 from compare.papers.pictures.paths import length, path_views, tool_path
-from compare.papers.verdicts import Outcome, same_order, same_times, smooth
+from compare.papers.verdicts import Reproduction, same_order, same_times, smooth
 from compare.papers.words import listed
 from compare.papers.zhou_2025.paper import BUDGET, RUNS, SWARMS, as_meant, printed_ends
 from compare.report.style import BLACK, BLUE, GREEN, GREY, ORANGE, VERMILION, styled
@@ -64,7 +64,7 @@ def show_path(data: dict[str, Any]) -> Shown:
         motions.append((f"{name} times, {motion.seconds:.3f} s", style, motion))
     long = [length(tool_path(arm, motion)) for _, _, motion in motions]
     miss = [1e3 * m for m in data["miss"]]
-    outcome = Outcome.REPRODUCED if max(miss) <= _POINT_HALF else Outcome.NOT
+    outcome = Reproduction.REPRODUCED if max(miss) <= _POINT_HALF else Reproduction.NOT
     return Shown(
         [path_views(arm, motions, _points(), [f"P{i + 1}" for i in range(4)])],
         [

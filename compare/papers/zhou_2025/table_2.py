@@ -10,7 +10,7 @@ from scipy.optimize import least_squares, minimize_scalar
 from compare.audit.paper import load_papers
 from compare.audit.paper.digits import values
 from compare.papers.item import Item, Shown, Table
-from compare.papers.verdicts import Outcome
+from compare.papers.verdicts import Reproduction
 from compare.papers.words import triple
 from formulations import load
 from formulations.arms import distance_to, load_arm
@@ -123,7 +123,8 @@ def show_angles(data: dict[str, Any]) -> Shown:
             f"{sum(o > _IN_REACH for o in out)} of {len(out)} points are out of reach, by {min(out):.1f} to "
             f"{max(out):.1f} mm. The printed angles leave the tool {min(away):.1f} to {max(away):.1f} mm away "
             "from the points; no other angles bring it closer than the distance out of reach.",
-            f"{Outcome.REPRODUCED if near else Outcome.NOT}: a least-squares inverse kinematics from zero "
+            f"{Reproduction.REPRODUCED if near else Reproduction.NOT}: a least-squares inverse kinematics "
+            "from zero "
             "angles, "
             f"with one metre weighing as much as one radian, stops within {data['apart']:.2f} deg of every "
             f"angle of Table 2 (within {data['best_apart']:.2f} deg if a radian weighs as much as "

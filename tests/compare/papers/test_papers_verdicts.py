@@ -17,7 +17,14 @@ import compare.papers
 from compare.papers.li_2022 import table_3 as li_table_3
 from compare.papers.lu_2024 import figure_1, figures_5_8
 from compare.papers.measure import judged
-from compare.papers.verdicts import Outcome, more_often, same_gain, same_gains, same_order, same_times
+from compare.papers.verdicts import (
+    Reproduction,
+    more_often,
+    same_gain,
+    same_gains,
+    same_order,
+    same_times,
+)
 from compare.papers.wang_2025 import figures_4_5, joint_1, table_8, table_9
 from compare.papers.zhang_2025 import figures_6_9, table_3, table_4
 from compare.papers.zhou_2025 import figures_5_7, table_2, tables_4_6
@@ -31,26 +38,26 @@ def test_a_gain_is_reproduced_near_it_in_kind_on_its_side_and_never_on_the_other
     printed: float, found: float
 ) -> None:
     outcome = same_gain(printed, found)
-    assert same_gain(printed, printed) is Outcome.REPRODUCED
+    assert same_gain(printed, printed) is Reproduction.REPRODUCED
     if printed * found < 0.0:
-        assert outcome is Outcome.NOT
-    if outcome is Outcome.IN_KIND:
+        assert outcome is Reproduction.NOT
+    if outcome is Reproduction.IN_KIND:
         assert printed * found > 0.0
     # moving what was found nearer to the print never makes the verdict worse
-    order = (Outcome.NOT, Outcome.IN_KIND, Outcome.REPRODUCED)
+    order = (Reproduction.NOT, Reproduction.IN_KIND, Reproduction.REPRODUCED)
     nearer = same_gain(printed, 0.5 * (printed + found))
     if printed * found > 0.0 and abs(printed) > 0.01:
         assert order.index(nearer) >= order.index(outcome)
 
 
 def test_times_orders_and_shares() -> None:
-    assert same_times([1.0, 2.0], [1.005, 1.99]) is Outcome.REPRODUCED
-    assert same_times([1.0, 2.0], [1.02, 2.0]) is Outcome.NOT
-    assert same_times([1.0, 2.0], [1.0, 2.0], [False, True]) is Outcome.NOT
-    assert same_gains([0.2, 0.2], [0.2, 0.05]) is Outcome.IN_KIND
-    assert same_gains([0.2, 0.2], [0.05, -0.2]) is Outcome.NOT
-    assert same_order([1.0, 2.0, 3.0]) is Outcome.REPRODUCED
-    assert same_order([1.0, 1.0, 3.0]) is Outcome.NOT
+    assert same_times([1.0, 2.0], [1.005, 1.99]) is Reproduction.REPRODUCED
+    assert same_times([1.0, 2.0], [1.02, 2.0]) is Reproduction.NOT
+    assert same_times([1.0, 2.0], [1.0, 2.0], [False, True]) is Reproduction.NOT
+    assert same_gains([0.2, 0.2], [0.2, 0.05]) is Reproduction.IN_KIND
+    assert same_gains([0.2, 0.2], [0.05, -0.2]) is Reproduction.NOT
+    assert same_order([1.0, 2.0, 3.0]) is Reproduction.REPRODUCED
+    assert same_order([1.0, 1.0, 3.0]) is Reproduction.NOT
     assert [more_often(share, 1000) for share in (0.56, 0.52, 0.2)] == [
         "more often",
         "not more often beyond chance",
