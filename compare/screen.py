@@ -22,7 +22,7 @@ from rich.table import Table
 from rich.text import Text
 
 _RULED = Box("    \n    \n -- \n    \n    \n    \n    \n    \n")  # one line below the header
-_NARROWEST = 24  # columns that the last cell of a row keeps on a narrow terminal
+_NARROWEST = 16  # columns that the last cell of a row keeps on a narrow terminal
 _UNLIMITED = 10_000
 
 

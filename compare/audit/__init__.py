@@ -1,15 +1,20 @@
-"""Audit of published results: ``python -m compare.audit``."""
+"""Audit of published results: ``python -m compare.audit``.
+
+``paper`` reads what a paper prints, ``motion`` puts its time vectors back into the spline, ``findings``
+judges them, ``whole_paper`` runs everything, ``chapters`` writes it down.
+"""
 
 from __future__ import annotations
 
-from compare.audit.audit import Audit, audit
-from compare.audit.chapter import chapter
-from compare.audit.findings import FAULTS, NOTES, Finding
-from compare.audit.paper import Paper
-from compare.audit.paper_file import PAPERS, load_papers, parse_papers
+from compare.audit.chapters import chapter
+from compare.audit.findings import FAULTS, IN_SHORT, NOTES, Finding
+from compare.audit.paper import CASE_OF, PAPERS, Paper, load_papers, parse_papers, published_text
+from compare.audit.whole_paper import Audit, audit
 
 __all__ = [
+    "CASE_OF",
     "FAULTS",
+    "IN_SHORT",
     "NOTES",
     "PAPERS",
     "Audit",
@@ -19,4 +24,5 @@ __all__ = [
     "chapter",
     "load_papers",
     "parse_papers",
+    "published_text",
 ]

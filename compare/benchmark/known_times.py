@@ -10,10 +10,8 @@ from __future__ import annotations
 from collections.abc import Iterable
 from dataclasses import dataclass
 
-from compare.audit.motions import Motion
-from compare.audit.paper import Paper
-from compare.audit.paper import Row as PrintedRow
-from compare.audit.paper_file import PAPERS, load_papers
+from compare.audit.motion.printed_motion import PrintedMotion
+from compare.audit.paper import PAPERS, Paper, PrintedTimes, load_papers
 from compare.benchmark.ladders import LadderRecord
 from compare.benchmark.rows import Row
 from compare.benchmark.statistics import median, times_of
@@ -152,9 +150,9 @@ def _published(paper: Paper, problem: Problem) -> list[KnownTime]:
     return [line for row in wholes for line in _whole(paper, row, problem)]
 
 
-def _whole(paper: Paper, row: PrintedRow, problem: Problem) -> list[KnownTime]:
+def _whole(paper: Paper, row: PrintedTimes, problem: Problem) -> list[KnownTime]:
     """A published motion of the whole arm, and the same motion slowed down."""
-    motion = Motion(paper, row, problem)
+    motion = PrintedMotion(paper, row, problem)
     verdict = motion.verdict
     total, note = motion.total, ""
     if row.total is not None and not row.total.low <= total <= row.total.high:

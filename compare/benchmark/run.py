@@ -16,7 +16,7 @@ from typing import Any, TypeVar
 import numpy as np
 
 from compare.audit import audit, load_papers
-from compare.audit.paper_file import published_text
+from compare.audit.paper import published_text
 from compare.benchmark.grade import Graded, Run, grade
 from compare.benchmark.known_times import KnownTime, table_of_known_times
 from compare.benchmark.ladders import LadderRecord, ladder_record

@@ -6,9 +6,9 @@ from typing import Annotated, Any
 
 from cyclopts import Parameter
 
-from compare.audit.audit import audit
-from compare.audit.chapter import HEADER, chapter
-from compare.audit.paper_file import PAPERS, load_papers
+from compare.audit.chapters import HEADER, chapter
+from compare.audit.paper import PAPERS, load_papers
+from compare.audit.whole_paper import audit
 from compare.commands import DONE
 from compare.commands.options import Json
 from compare.screen import save, stages, table

@@ -11,6 +11,7 @@ from compare.commands import DONE
 from compare.commands.options import writable
 from compare.files import write_text
 from compare.report.motion_picture import arm_of, fastest_spline
+from compare.screen import stages
 from formulations import CASES, InputError, family_optimum, load
 
 _WITH_ARM = [case for case in CASES if arm_of(case) is not None]
@@ -36,7 +37,9 @@ def motion_picture(
     if case not in _WITH_ARM:
         raise InputError(f"CASE: no arm is known for {case!r} (known: {', '.join(_WITH_ARM)})")
     problem = load(case)
-    optimum = family_optimum(problem)
+    with stages(case) as stage:
+        stage(f"fastest {problem.family} spline")
+        optimum = family_optimum(problem)
     picture = fastest_spline(case, problem, optimum.durations)
     assert picture is not None  # the case has an arm
     path = Path(out or f"{case}.svg")

@@ -8,6 +8,7 @@ from typing import Annotated
 
 from cyclopts import Parameter
 
+from compare.audit.paper import CASE_OF
 from compare.commands import DONE, FAILED
 from compare.commands.options import CORES, Jobs, Json, Out, Resume, several
 from compare.files import output_folder
@@ -16,13 +17,13 @@ from compare.papers.making import choose, draw, left_to_make, make
 from compare.screen import show
 from formulations import InputError
 
+_KEYS = ", ".join(f"{case} or {name}" for name, case in CASE_OF.items() if case in ITEMS)
+
 
 def papers(
     *papers: Annotated[
         str,
-        Parameter(
-            name="KEY", help=f"Papers by the key of their case: {', '.join(ITEMS)}; all if none."
-        ),
+        Parameter(name="KEY", help=f"Papers, by case or by author and year: {_KEYS}; all if none."),
     ],
     full: bool = False,
     item: Annotated[str | None, Parameter(metavar="LABEL")] = None,
@@ -47,10 +48,11 @@ def papers(
     """
     started = time.perf_counter()
     try:
-        keys = several(",".join(papers), ITEMS) if papers else tuple(ITEMS)
+        wanted = ",".join(CASE_OF.get(key, key) for key in papers)  # wang_2025 and sr4c are the same
+        keys = several(wanted, ITEMS) if papers else tuple(ITEMS)
     except ValueError as error:
         raise InputError(f"KEY: {error}") from None
-    chosen = choose(list(keys), item)
+    chosen = choose(keys, item)
     total = sum(len(items) for items in chosen.values())
     if listing:
         labels = {paper: [item.label for item in items] for paper, items in chosen.items()}

@@ -12,7 +12,7 @@ from cyclopts import Parameter
 from compare.benchmark.objective import CODINGS
 from compare.commands import DONE
 from compare.commands.options import Budget, Codings, Json, ProblemFile, Seed, Swarm, positive, writable
-from compare.screen import show
+from compare.screen import show, stages
 from compare.studies.time_split import as_json, as_text, run_and_split, split_figure
 from formulations import InputError, load
 
@@ -43,9 +43,10 @@ def split(
     """
     problem = load(file)
     wanted = list(codings or CODINGS)
-    splits, reasons = run_and_split(
-        problem, swarm, wanted, seed=seed, budget=budget, population=population
-    )
+    with stages(problem.name) as stage:
+        splits, reasons = run_and_split(
+            problem, swarm, wanted, seed=seed, budget=budget, population=population, progress=stage
+        )
     for coding, reason in reasons.items():
         print(f"{coding}: no verified motion ({reason})", file=sys.stderr)
     if not splits:

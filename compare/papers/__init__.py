@@ -1,19 +1,22 @@
-"""Every table and figure of the five papers that can be made again, printed beside reproduced."""
+"""Every table and figure of the papers that can be made again, printed beside reproduced.
+
+One folder per paper, named by author and year, with its printed numbers in ``printed.toml`` and one module
+per table or figure. ``item`` says what a table or figure is; ``measure``, ``verdicts``, ``words`` and
+``pictures`` are shared; ``shelf`` stores, ``page`` writes the page.
+"""
 
 from __future__ import annotations
 
-from compare.papers import li_2022 as bagging
-from compare.papers import lu_2024 as z1
-from compare.papers import wang_2025 as sr4c
-from compare.papers import zhang_2025 as cobot
-from compare.papers import zhou_2025 as ur5
+from compare.audit.paper import CASE_OF
+from compare.papers import li_2022, lu_2024, wang_2025, zhang_2025, zhou_2025
 from compare.papers.item import Item
 
-ITEMS: dict[str, tuple[Item, ...]] = {
-    "sr4c": sr4c.ITEMS,
-    "bagging": bagging.ITEMS,
-    "ur5": ur5.ITEMS,
-    "z1": z1.ITEMS,
-    "cobot": cobot.ITEMS,
+_PAPERS: dict[str, tuple[Item, ...]] = {
+    "wang_2025": wang_2025.ITEMS,
+    "li_2022": li_2022.ITEMS,
+    "zhou_2025": zhou_2025.ITEMS,
+    "lu_2024": lu_2024.ITEMS,
+    "zhang_2025": zhang_2025.ITEMS,
 }
-"""Items by paper, in the order of the papers and of their pages."""
+ITEMS: dict[str, tuple[Item, ...]] = {CASE_OF[key]: items for key, items in _PAPERS.items()}
+"""Items by the case of their paper, in the order of the pages."""

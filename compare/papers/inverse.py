@@ -1,4 +1,4 @@
-"""Printed joint angles beside those that inverse kinematics finds for the printed points."""
+"""Printed joint angles beside the ones that inverse kinematics finds for the printed points."""
 
 from __future__ import annotations
 
@@ -7,7 +7,7 @@ from typing import Any
 import numpy as np
 
 from compare.audit.paper import Paper, Point
-from compare.audit.printed import halves, values
+from compare.audit.paper.digits import halves, values
 from compare.papers.item import Shown, Table
 from formulations.arms import Arm, branches, load_arm, nearest, pose_of
 from formulations.arms.kinematics import error_of
@@ -17,10 +17,21 @@ _DUST = 1e-9  # rad, rounding of the solver
 
 
 def make_inverse(paper: Paper) -> dict[str, Any]:
-    """Per printed point: the solution nearest to the last one, all the others, and what rounding allows.
+    """Solve the printed points of a paper for joint angles.
 
-    The first point's is the one nearest to the printed angles. Where no orientation is printed, that
-    of the printed angles is kept.
+    The first point takes the solution nearest to the printed angles, each other point the one nearest to the
+    point before. Where no orientation is printed, that of the printed angles is kept.
+
+    Parameters
+    ----------
+    paper : Paper
+        What the paper prints.
+
+    Returns
+    -------
+    dict
+        points: printed and found angles [rad], number of solutions, what rounding allows [rad], misses
+        [m, rad]; oriented: whether orientations are printed.
     """
     assert paper.arm is not None
     assert paper.waypoints is not None
@@ -50,14 +61,24 @@ def make_inverse(paper: Paper) -> dict[str, Any]:
 
 
 def _allowed(arm: Arm, point: Point, joints: Array, blur: Array) -> Array:
-    """How far angles may be apart by the rounding of point and angles, to first order, (dof,) [rad]."""
+    """Greatest distance of the angles by rounding of point and angles, to first order, (dof,) [rad]."""
     turn = np.zeros(3) if point.rpy is None else np.full(3, halves(point.rpy).sum())
     moved = np.concatenate([halves(point.position) * point.metre, turn])
     return np.asarray(np.abs(np.linalg.inv(arm.chain.jacobian(joints))) @ moved + 2.0 * blur)
 
 
 def show_inverse(data: dict[str, Any]) -> Shown:
-    """Two lines per point, printed and reproduced; what is more apart than rounding explains."""
+    """Show two lines per point, printed and reproduced, and what rounding does not explain.
+
+    Parameters
+    ----------
+    data : dict
+        Of ``make_inverse``.
+
+    Returns
+    -------
+    Shown
+    """
     dof = len(data["points"][0]["printed"])
     header = ["point", "joint angles [rad]", *map(str, range(1, dof + 1)), "most apart [rad]"]
     rows, outside, apart = [], [], 0.0
@@ -78,18 +99,18 @@ def show_inverse(data: dict[str, Any]) -> Shown:
     remarks = [
         f"Printed and reproduced angles are at most {apart:.1e} rad apart; "
         + (
-            f"more than rounding explains: {'; '.join(outside)}."
+            f"rounding does not explain: {'; '.join(outside)}."
             if outside
             else "rounding explains all of it."
         ),
         f"By forward kinematics the printed angles lead to the printed points within {1e3 * max(misses):.3g} mm"
         + (f" and {np.degrees(max(turns)):.2g} deg." if data["oriented"] else "."),
-        f"Each point has {' or '.join(map(str, sorted(set(counts))))} solutions; another choice among them "
-        "would be another motion.",
+        f"Each point has {' or '.join(map(str, sorted(set(counts))))} solutions. Another choice among them "
+        "gives another motion.",
     ]
     if max(as_printed) > 2.0 * max(misses):
         remarks.append(
-            "The other reading, the DH table as printed without offsets, misses the printed points by "
+            "The other reading, the DH table as printed and without offsets, misses the printed points by "
             f"{1e3 * min(as_printed):.0f} to {1e3 * max(as_printed):.0f} mm."
         )
     return Shown([Table(header, rows, "", range(2, dof + 3))], remarks)

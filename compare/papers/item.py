@@ -1,4 +1,4 @@
-"""One table or figure of a paper, made again: how it is computed, and how what is stored is shown."""
+"""One table or figure of a paper, made again: how it is computed, and how the stored result is shown."""
 
 from __future__ import annotations
 
@@ -11,7 +11,19 @@ from matplotlib.figure import Figure
 
 @dataclass(frozen=True)
 class Table:
-    """Cells as text, printed beside reproduced. right: columns of numbers."""
+    """A table of a page; every cell is text, printed beside reproduced.
+
+    Attributes
+    ----------
+    header : sequence of str
+        Names of the columns.
+    rows : sequence of (sequence of str)
+        The cells.
+    caption : str
+        Below the table.
+    right : sequence of int
+        Columns of numbers.
+    """
 
     header: Sequence[str]
     rows: Sequence[Sequence[str]]
@@ -21,7 +33,15 @@ class Table:
 
 @dataclass(frozen=True)
 class Shown:
-    """What a reader sees of an item. remarks: one sentence each, with the number that it rests on."""
+    """What a reader sees of an item.
+
+    Attributes
+    ----------
+    parts : sequence of Table or Figure
+        In order.
+    remarks : sequence of str
+        Sentences, each with the numbers that it rests on; verdicts come from ``verdicts``.
+    """
 
     parts: Sequence[Table | Figure]
     remarks: Sequence[str] = field(default_factory=tuple)
@@ -29,14 +49,23 @@ class Shown:
 
 @dataclass(frozen=True)
 class Item:
-    """A table or figure of a paper.
+    """A table or figure of a paper, made again.
 
-    label: as the paper calls it ("Table 8", "Figs 8-10"); title: what it shows there; reading: what the
-    paper leaves open and how it was read (what the other reading gives belongs to the remarks).
-    make: (full) -> JSON of plain numbers and text, with the papers' budgets if full; a function of a
-    module, as it runs in a worker, and the same for the same argument.
-    show: that JSON -> what a reader sees; computes nothing but the picture.
-    cost: seconds it takes by default, about: the longest item is started first.
+    Attributes
+    ----------
+    label : str
+        As the paper calls it: "Table 8", "Figs 8-10".
+    title : str
+        What it shows there.
+    make : callable
+        (full) -> JSON of plain numbers and text, with the paper's own budgets if ``full``. It is a
+        function of a module, since it runs in a worker, and gives the same for the same argument.
+    show : callable
+        That JSON -> ``Shown``. It computes nothing but text and pictures.
+    reading : str
+        What the paper leaves open, and how it was read. What another reading gives belongs to the remarks.
+    cost : float [s]
+        About how long it takes by default; the longest item is started first.
     """
 
     label: str

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import multiprocessing
-from collections.abc import Iterator
+from collections.abc import Iterator, Sequence
 from concurrent.futures.process import BrokenProcessPool
 from pathlib import Path
 
@@ -16,12 +16,12 @@ from formulations import InputError
 Call = tuple[str, str, Item, bool]  # the arguments of shelf.make
 
 
-def choose(papers: list[str], label: str | None) -> dict[str, list[Item]]:
+def choose(papers: Sequence[str], label: str | None) -> dict[str, list[Item]]:
     """Choose items by paper.
 
     Parameters
     ----------
-    papers : list of str
+    papers : sequence of str
         Keys of ``ITEMS``.
     label : str or None
         One item alone, as the paper calls it; None: all of them.

@@ -1,4 +1,4 @@
-"""What an item measures of a task: repeated swarm runs, the certified optimum, what given times do."""
+"""What a table or figure measures of a task: repeated runs, the certified optimum, given times judged."""
 
 from __future__ import annotations
 
@@ -8,15 +8,34 @@ from typing import Any
 import numpy as np
 from numpy.typing import ArrayLike
 
+from compare.audit.motion.printed_motion import PrintedMotion
+from compare.audit.paper import Paper, PrintedTimes
 from compare.benchmark.grade import Graded, Run, durations_of, grade
 from compare.benchmark.suite import Budget
-from compare.papers.printed_motions import used_most
-from formulations import FAMILIES, Problem, check, family_bound
+from formulations import FAMILIES, Problem, Trajectory, Verdict, check, family_bound
+from formulations.motion.verdict import QUANTITIES
 from formulations.problem.arrays import Array
 
 
 def trials(problem: Problem, swarm: str, budget: Budget, runs: int) -> list[Graded]:
-    """Runs with seeds 0, 1, ... as the papers have it: infeasible = worst fitness. Each is judged."""
+    """Run a swarm as the papers do: an infeasible candidate has the worst fitness.
+
+    Parameters
+    ----------
+    problem : Problem
+        The task.
+    swarm : str
+        A name of ``ALGORITHMS``.
+    budget : Budget
+        Population and iterations.
+    runs : int
+        Number of runs, with seeds 0, 1, ...
+
+    Returns
+    -------
+    list of Graded
+        Each is judged by the independent check.
+    """
     size = budget.evaluations, budget.population
     return [
         grade(Run(problem.name, "shared", swarm, seed, *size), problem, None, "none")
@@ -25,7 +44,19 @@ def trials(problem: Problem, swarm: str, budget: Budget, runs: int) -> list[Grad
 
 
 def summary(found: Sequence[Graded]) -> dict[str, Any]:
-    """Verified times of all runs [s], and the durations of the median one (the lower of two)."""
+    """Collect the times of repeated runs and the durations of the median run.
+
+    Parameters
+    ----------
+    found : sequence of Graded
+        Runs of one swarm.
+
+    Returns
+    -------
+    dict
+        runs (a count), seconds (verified times, rising [s]), median [s] and durations of the median run
+        (the lower one of two; None without a solved run).
+    """
     solved = sorted((g.row.seconds, g.run.seed) for g in found if g.row.seconds is not None)
     by_seed = {g.run.seed: durations_of(g.row).tolist() for g in found}
     median = solved[(len(solved) - 1) // 2] if solved else None
@@ -38,19 +69,75 @@ def summary(found: Sequence[Graded]) -> dict[str, Any]:
 
 
 def least(problem: Problem) -> dict[str, Any]:
-    """The family's optimum: certified bound, best verified time, its durations [s].
+    """Prove the optimum of the problem's family.
 
-    Proved to a gap and not for a time, to be the same on every machine.
+    The proof goes on to a gap of 1e-6, however long it takes, so that it ends alike on every machine.
+
+    Parameters
+    ----------
+    problem : Problem
+        The task.
+
+    Returns
+    -------
+    dict
+        bound (certified) and optimum (best verified time) [s], durations [s].
     """
     found = family_bound(problem, gap=1e-6)
     durations = None if found.durations is None else found.durations.tolist()
     return {"bound": found.seconds, "optimum": found.upper, "durations": durations}
 
 
+def spline(problem: Problem, durations: ArrayLike) -> Trajectory:
+    """Make the motion of the problem's family.
+
+    Parameters
+    ----------
+    problem : Problem
+        The task.
+    durations : array_like, shape (n_segments,) [s]
+        Of the segments.
+
+    Returns
+    -------
+    Trajectory
+    """
+    return FAMILIES[problem.family].trajectory(problem, np.asarray(durations, dtype=np.float64))
+
+
+def peaks(trajectory: Trajectory) -> Array:
+    """Greatest |velocity| and |acceleration| of each joint.
+
+    Parameters
+    ----------
+    trajectory : Trajectory
+        The motion.
+
+    Returns
+    -------
+    Array, shape (2, dof) [rad/s, rad/s^2]
+    """
+    found = [trajectory.extremes(order) for order in (1, 2)]
+    return np.array([np.maximum(-e.low, e.high).max(axis=0) for e in found])
+
+
 def judged(problem: Problem, durations: ArrayLike) -> dict[str, Any]:
-    """What the independent check says of the spline with these durations."""
+    """Judge the spline with given durations by the independent check.
+
+    Parameters
+    ----------
+    problem : Problem
+        The task.
+    durations : array_like, shape (n_segments,) [s]
+        Of the segments.
+
+    Returns
+    -------
+    dict
+        durations, seconds, keeps (the limits), stretch, most (``used_most``), faults.
+    """
     times: Array = np.asarray(durations, dtype=np.float64)
-    verdict = check(problem, FAMILIES[problem.family].trajectory(problem, times))
+    verdict = check(problem, spline(problem, times))
     return {
         "durations": times.tolist(),
         "seconds": verdict.seconds,
@@ -61,17 +148,48 @@ def judged(problem: Problem, durations: ArrayLike) -> dict[str, Any]:
     }
 
 
-def listed(values: Sequence[object]) -> str:
-    """1, 2 and 5."""
-    words = [str(value) for value in values]
-    return " and ".join([", ".join(words[:-1]), words[-1]] if len(words) > 1 else words)
+def judged_row(paper: Paper, row: PrintedTimes) -> dict[str, Any]:
+    """Judge a printed time vector under its stated limits, for every reading of the digits.
+
+    Parameters
+    ----------
+    paper : Paper
+        What the paper prints.
+    row : PrintedTimes
+        One of its time vectors.
+
+    Returns
+    -------
+    dict
+        where, times and total (as printed), seconds, keeps (yes, no, or within rounding), stretch, most
+        (``used_most``).
+    """
+    motion = PrintedMotion.of(paper, row)
+    return {
+        "where": row.where,
+        "times": [str(time) for time in row.times],
+        "total": None if row.total is None else str(row.total),
+        "seconds": motion.total,
+        "keeps": motion.kept.value,
+        "stretch": motion.verdict.stretch,
+        "most": used_most(motion.verdict),
+    }
 
 
-def triple(numbers: Sequence[float], digits: int = 3) -> str:
-    """1.000, 2.000, 5.000."""
-    return ", ".join(f"{n:.{digits}f}" for n in numbers)
+def used_most(verdict: Verdict) -> str:
+    """Say which limit a motion uses most, and how much of it.
 
+    Parameters
+    ----------
+    verdict : Verdict
+        What the independent check says of the motion.
 
-def percent(share: float, digits: int = 1) -> str:
-    """12.3 %."""
-    return f"{100.0 * share:.{digits}f}\u00a0%"
+    Returns
+    -------
+    str
+    """
+    found = [peak for peak in verdict.peaks if peak.quantity != QUANTITIES[0]]
+    if not found:
+        return "nothing limited"
+    peak = max(found, key=lambda p: p.stretch)
+    return f"{peak.quantity} of joint {peak.joint + 1}, {100 * peak.factor:.1f} % of its limit"

@@ -1,4 +1,4 @@
-"""The chapter of one paper, from what is stored of its items alone: DIR/papers/KEY.html."""
+"""The page of one paper, DIR/papers/KEY.html, made from the stored items alone."""
 
 from __future__ import annotations
 
@@ -14,8 +14,8 @@ import matplotlib as mpl
 import matplotlib.pyplot as plt
 from matplotlib.figure import Figure
 
-from compare.audit.paper_file import load_papers
-from compare.commands import shared as commands
+from compare.audit.paper import load_papers
+from compare.files import write_text
 from compare.papers.item import Item, Table
 from compare.papers.shelf import DIED, FAILED, MISSING, OK, Made, kept
 from compare.report.style import STYLE
@@ -29,7 +29,7 @@ MEANINGS = {
 
 @dataclass(frozen=True)
 class Entry:
-    """An item ready for the page. parts: tables, and pictures as data: URIs."""
+    """An item ready for the page; parts are tables, and pictures as data: URIs."""
 
     item: Item
     made: Made | None
@@ -40,7 +40,22 @@ class Entry:
 
 
 def render(folder: str, key: str, items: Sequence[Item]) -> tuple[str, dict[str, str]]:
-    """Write the chapter of a paper; its key, and by label what is wrong with an item."""
+    """Write the page of a paper.
+
+    Parameters
+    ----------
+    folder : str
+        Of the report.
+    key : str
+        Case of the paper (sr4c); names the page.
+    items : sequence of Item
+        In the order of the page.
+
+    Returns
+    -------
+    (str, dict)
+        The key; by label, what is wrong with an item.
+    """
     mpl.use("Agg")  # a worker has no screen
     entries = [_entry(Path(folder), key, item) for item in items]
     environment = jinja2.Environment(
@@ -67,7 +82,7 @@ def render(folder: str, key: str, items: Sequence[Item]) -> tuple[str, dict[str,
     }
     path = Path(folder) / "papers" / f"{key}.html"
     path.parent.mkdir(parents=True, exist_ok=True)
-    commands.write_text(path, environment.get_template("paper.html.j2").render(context))
+    write_text(path, environment.get_template("paper.html.j2").render(context))
     return key, {e.item.label: f"{e.status}: {e.note}" for e in entries if e.status != OK}
 
 
@@ -81,14 +96,14 @@ def _entry(folder: Path, key: str, item: Item) -> Entry:
         with mpl.rc_context(STYLE):
             shown = item.show(made.data)
             parts = [_svg(part) if isinstance(part, Figure) else part for part in shown.parts]
-    except Exception as error:  # what one item stores must not cost the others their page
+    except Exception as error:  # one faulty item must not cost the others their page
         plt.close("all")
         return Entry(item, made, FAILED, f"cannot be shown: {type(error).__name__}: {error}", (), ())
     return Entry(item, made, OK, "", parts, shown.remarks)
 
 
 def _svg(figure: Figure) -> str:
-    """A picture as a data: URI; it is closed."""
+    """Encode a picture as a data: URI and close it."""
     text = io.BytesIO()
     figure.savefig(text, format="svg", metadata={"Date": None})
     plt.close(figure)

@@ -1,4 +1,4 @@
-"""What is kept of an item: one JSON per item, written whole as soon as the item is made.
+"""The store of items: one JSON file each, written whole as soon as the item is made.
 
 DIR/papers/KEY/ITEM.json   full, status, note, seconds, versions, machine, data
 """
@@ -13,7 +13,7 @@ from pathlib import Path
 from typing import Any
 
 from compare.benchmark.provenance import machine, versions_text
-from compare.commands import shared as commands
+from compare.files import write_json
 from compare.papers.item import Item
 
 OK, FAILED, DIED, MISSING = "ok", "failed", "died", "not made"
@@ -21,8 +21,22 @@ OK, FAILED, DIED, MISSING = "ok", "failed", "died", "not made"
 
 @dataclass(frozen=True)
 class Made:
-    """An item as it is stored. status: one of the above; note: why it is not ok; seconds: what it took;
-    data: what ``Item.make`` returned, None if it returned nothing.
+    """An item as it is stored.
+
+    Attributes
+    ----------
+    full : bool
+        Whether it was made with the paper's own budgets.
+    status : str
+        ok, failed or died.
+    note : str
+        Why it is not ok.
+    seconds : float [s]
+        What it took.
+    versions, machine : str
+        By what and where it was made.
+    data : dict or None
+        What ``Item.make`` returned.
     """
 
     full: bool
@@ -35,7 +49,24 @@ class Made:
 
 
 def make(folder: str, paper: str, item: Item, full: bool) -> tuple[str, Item, Made]:
-    """Make an item and store it; whatever it raises is its status, and no other item's concern."""
+    """Make an item and store it. What it raises becomes its status.
+
+    Parameters
+    ----------
+    folder : str
+        Of the report.
+    paper : str
+        Case of the paper.
+    item : Item
+        The table or figure.
+    full : bool
+        Whether with the paper's own budgets.
+
+    Returns
+    -------
+    (str, Item, Made)
+        Paper, item and the result.
+    """
     started = time.perf_counter()
     status, note, data = OK, "", None
     try:
@@ -52,7 +83,23 @@ def make(folder: str, paper: str, item: Item, full: bool) -> tuple[str, Item, Ma
 
 
 def died(folder: str, paper: str, item: Item, full: bool) -> Made:
-    """Store that an item took its process with it."""
+    """Store that the process of an item ended without an answer.
+
+    Parameters
+    ----------
+    folder : str
+        Of the report.
+    paper : str
+        Case of the paper.
+    item : Item
+        The table or figure.
+    full : bool
+        Whether with the paper's own budgets.
+
+    Returns
+    -------
+    Made
+    """
     note = "its process ended without an answer"
     made = Made(full, DIED, note, 0.0, versions_text(), machine(), None)
     keep(Path(folder), paper, item, made)
@@ -60,14 +107,41 @@ def died(folder: str, paper: str, item: Item, full: bool) -> Made:
 
 
 def keep(folder: Path, paper: str, item: Item, made: Made) -> None:
-    """Write one item."""
+    """Write one item.
+
+    Parameters
+    ----------
+    folder : Path
+        Of the report.
+    paper : str
+        Case of the paper.
+    item : Item
+        The table or figure.
+    made : Made
+        What to store.
+    """
     path = _path(folder, paper, item)
     path.parent.mkdir(parents=True, exist_ok=True)
-    commands.write_json(path, {"label": item.label, **asdict(made)})
+    write_json(path, {"label": item.label, **asdict(made)})
 
 
 def kept(folder: Path, paper: str, item: Item) -> Made | None:
-    """An item as it was stored; None if there is none, or none that can be read."""
+    """Read one item.
+
+    Parameters
+    ----------
+    folder : Path
+        Of the report.
+    paper : str
+        Case of the paper.
+    item : Item
+        The table or figure.
+
+    Returns
+    -------
+    Made or None
+        None if nothing is stored, or nothing that can be read.
+    """
     try:
         found = json.loads(_path(folder, paper, item).read_text("utf-8"))
         return Made(**{name: found[name] for name in Made.__annotations__})
@@ -76,13 +150,39 @@ def kept(folder: Path, paper: str, item: Item) -> Made | None:
 
 
 def finished(folder: Path, paper: str, item: Item, full: bool) -> bool:
-    """Whether an item is stored already, of this size and by these versions."""
+    """Whether an item is stored already, in this size and by these versions.
+
+    Parameters
+    ----------
+    folder : Path
+        Of the report.
+    paper : str
+        Case of the paper.
+    item : Item
+        The table or figure.
+    full : bool
+        Whether with the paper's own budgets.
+
+    Returns
+    -------
+    bool
+    """
     made = kept(folder, paper, item)
     return made is not None and (made.status, made.full, made.versions) == (OK, full, versions_text())
 
 
 def forget(folder: Path, paper: str, item: Item) -> None:
-    """Drop what is stored of an item."""
+    """Drop what is stored of an item.
+
+    Parameters
+    ----------
+    folder : Path
+        Of the report.
+    paper : str
+        Case of the paper.
+    item : Item
+        The table or figure.
+    """
     _path(folder, paper, item).unlink(missing_ok=True)
 
 

@@ -23,8 +23,8 @@ from compare.benchmark.provenance import code_digest
 from compare.report.style import BLUE, GREY, ORANGE, PURPLE, VERMILION, styled
 from compare.screen import table
 from compare.studies.origin_shift import COORDINATES, seen_in
-from compare.studies.study import Call, Study
-from formulations import Problem, family_optimum, load
+from compare.studies.study import Call, Study, optima_of
+from formulations import Problem, load
 from formulations.problem.arrays import Array
 from metaheuristics import algorithm, minimise
 
@@ -326,7 +326,7 @@ def calls(
         Arguments of ``STUDY.compute``.
     """
     problems = {case: load(case) for case in cases}
-    optima = {case: family_optimum(problem).seconds for case, problem in problems.items()}
+    optima = optima_of(problems)
     found: list[Call] = []
     for swarm in swarms:
         code = code_digest(swarm)

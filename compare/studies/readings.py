@@ -17,8 +17,8 @@ from compare.benchmark.grade import REACHED
 from compare.benchmark.objective import Objective, search_box
 from compare.report.style import BLUE, GREY, ORANGE, styled
 from compare.screen import table
-from compare.studies.study import Call, Study
-from formulations import Problem, family_optimum, load
+from compare.studies.study import Call, Study, optima_of
+from formulations import Problem, load
 from metaheuristics import ALGORITHMS, minimise
 
 # paper, question -> reading -> algorithm and what is changed; the first is the default
@@ -249,16 +249,14 @@ def calls(cases: list[str], seeds: int, budget: int) -> list[Call]:
     list of tuples
         Arguments of ``repeat``.
     """
-    found: list[Call] = []
-    for case in cases:
-        problem = load(case)
-        optimum = family_optimum(problem).seconds
-        found += [
-            (question, reading, case, problem, optimum, seeds, budget)
-            for question, readings in READINGS.items()
-            for reading in readings
-        ]
-    return found
+    problems = {case: load(case) for case in cases}
+    optima = optima_of(problems)
+    return [
+        (question, reading, case, problems[case], optima[case], seeds, budget)
+        for case in cases
+        for question, readings in READINGS.items()
+        for reading in readings
+    ]
 
 
 STUDY = Study(

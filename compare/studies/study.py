@@ -32,7 +32,7 @@ from compare.benchmark.provenance import machine, problem_digest, versions_text
 from compare.benchmark.run import each
 from compare.files import write_json, write_text
 from compare.screen import bar
-from formulations import InputError, Problem
+from formulations import InputError, Problem, family_optimum
 
 
 class IsDataclass(Protocol):
@@ -168,6 +168,27 @@ def run(
     if folder is not None:
         _write(study, rows, summary, folder)
     return Findings(study, rows, summary)
+
+
+def optima_of(problems: dict[str, Problem]) -> dict[str, float]:
+    """Find the optimum of each problem's family, under a progress bar.
+
+    Parameters
+    ----------
+    problems : dict
+        Problems by name.
+
+    Returns
+    -------
+    dict
+        Times by name [s].
+    """
+    found = {}
+    with bar("optima", len(problems)) as advance:
+        for name, problem in problems.items():
+            found[name] = family_optimum(problem).seconds
+            advance()
+    return found
 
 
 def _answers(

@@ -16,7 +16,7 @@ timing and path are one share, "family".
 
 from __future__ import annotations
 
-from collections.abc import Mapping, Sequence
+from collections.abc import Callable, Mapping, Sequence
 from dataclasses import asdict, dataclass
 from itertools import pairwise
 from typing import Any
@@ -125,7 +125,14 @@ def path_timing(problem: Problem, rungs: Mapping[str, RungRecord]) -> str | None
 
 
 def run_and_split(
-    problem: Problem, swarm: str, codings: Sequence[str], *, seed: int, budget: int, population: int
+    problem: Problem,
+    swarm: str,
+    codings: Sequence[str],
+    *,
+    seed: int,
+    budget: int,
+    population: int,
+    progress: Callable[[str], None] | None = None,
 ) -> tuple[dict[str, list[Share]], dict[str, str]]:
     """Run a swarm in each coding, and split the time of what it found.
 
@@ -143,6 +150,8 @@ def run_and_split(
         Evaluations per run.
     population : int
         Vectors per population.
+    progress : Callable, optional
+        Called with the name of each stage as it begins.
 
     Returns
     -------
@@ -151,10 +160,12 @@ def run_and_split(
     reasons : dict
         Why there are none, by coding.
     """
-    climbed = ladder_record(ladder(problem))
+    climbed = ladder_record(ladder(problem, progress=progress))
     bound, proof = bound_of(climbed)
     splits, reasons = {}, {}
     for coding in codings:
+        if progress is not None:
+            progress(f"{swarm}, {coding} coding")
         run = Run(problem.name, coding, swarm, seed, budget, population)
         row = grade(run, problem, bound, proof).row
         if row.seconds is None:

@@ -4,7 +4,8 @@ from __future__ import annotations
 
 from compare.commands.options import CORES, Jobs, Json, Out, Resume
 from compare.commands.studies import in_workers
-from compare.papers.wang_2025 import cec2017
+from compare.papers.wang_2025 import ablation as runs
+from compare.papers.wang_2025.cec2017 import ablation_figure, as_text
 from compare.studies.study import Call, Study
 
 _BATCH = 5  # runs per call
@@ -28,21 +29,21 @@ def ablation(
     full
         Take the paper's protocol: 500 iterations, 30 runs.
     """
-    protocol = cec2017.FULL if full else cec2017.SHORT
-    cec2017.cec2017(3, 10)  # says at once what is missing
-    cec2017.holm([0.5])
+    protocol = runs.FULL if full else runs.SHORT
+    runs.cec2017(3, 10)  # says at once what is missing
+    runs.holm([0.5])
     study = Study(
         name="ablation",
-        row=cec2017.Row,
-        compute=cec2017.repeat,
-        summarise=cec2017.summarise,
-        text=lambda rows, summary: cec2017.as_text(summary),
-        figure=lambda rows, summary: cec2017.ablation_figure(summary, protocol),
+        row=runs.AblationRun,
+        compute=runs.repeat,
+        summarise=runs.summarise,
+        text=lambda rows, summary: as_text(summary),
+        figure=lambda rows, summary: ablation_figure(summary, protocol),
     )
     calls: list[Call] = [
         (number, swarm, protocol, range(start, min(start + _BATCH, protocol.runs)))
-        for number in cec2017.PRINTED
-        for swarm in ("mipso", *cec2017.STRATEGIES)
+        for number in runs.PRINTED
+        for swarm in ("mipso", *runs.STRATEGIES)
         for start in range(0, protocol.runs, _BATCH)
     ]
     return in_workers(study, calls, out=out, jobs=jobs, resume=resume, json=json)

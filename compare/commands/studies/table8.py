@@ -8,18 +8,19 @@ from cyclopts import Parameter
 
 from compare.commands.options import CORES, Jobs, Json, Out, Resume, positive
 from compare.commands.studies import in_workers
-from compare.papers.wang_2025 import table_8
+from compare.papers.wang_2025 import joint_1
+from compare.papers.wang_2025.table_8 import as_text, table8_figure
 from compare.studies.study import Call, Study
 
 _BATCH = 50  # runs per call
 
 STUDY = Study(
     name="table8",
-    row=table_8.Row,
-    compute=table_8.repeat,
-    summarise=table_8.summarise,
-    text=lambda rows, summary: table_8.as_text(summary),
-    figure=table_8.table8_figure,
+    row=joint_1.JointOneRun,
+    compute=joint_1.repeat,
+    summarise=joint_1.summarise,
+    text=lambda rows, summary: as_text(summary),
+    figure=table8_figure,
 )
 
 
@@ -43,8 +44,8 @@ def table8(
     """
     calls: list[Call] = [
         (limit, swarm, range(start, min(start + _BATCH, runs)))
-        for limit in table_8.LIMITS
-        for swarm in table_8.SWARMS
+        for limit in joint_1.LIMITS
+        for swarm in joint_1.SWARMS
         for start in range(0, runs, _BATCH)
     ]
     return in_workers(STUDY, calls, out=out, jobs=jobs, resume=resume, json=json)

@@ -1,14 +1,12 @@
-"""Paper 001: what its items share."""
+"""Li 2022: what its tables and figures share."""
 
 from __future__ import annotations
 
 from functools import cache
 from typing import Any
 
-from compare.audit.paper import Paper, Row
-from compare.audit.paper_file import load_papers
+from compare.audit.paper import Paper, PrintedTimes, load_papers, settings
 from compare.benchmark.suite import Budget
-from compare.papers.printed import tables
 from formulations import Problem, family_bound, family_optimum, load
 
 SWARMS = {"mpso": "factors as printed", "mpso-times-ten": "factors times ten"}
@@ -16,24 +14,37 @@ READINGS = SWARMS | {"boxed": "factors as printed, 0.1 to 2 s a segment"}
 
 
 def paper() -> Paper:
-    """Paper 001 as data."""
+    """The numbers that the paper prints."""
     return load_papers("bagging")[0]
 
 
-def rows() -> tuple[list[Row], Row]:
-    """Table 3: the rows of single joints, and the starred times."""
+def rows() -> tuple[list[PrintedTimes], PrintedTimes]:
+    """Rows of Table 3: the single joints, and the starred longest times."""
     single = [row for row in paper().rows if row.joint is not None]
     return single, next(row for row in paper().rows if row.joint is None)
 
 
 def budget() -> Budget:
-    """Section 3."""
-    settings = tables("bagging")["swarm"]
-    return Budget(settings["particles"], settings["iterations"])
+    """Population and iterations of sec. 3."""
+    swarm = settings("bagging")["swarm"]
+    return Budget(swarm["population"], swarm["iterations"])
 
 
 def certified(problem: Problem) -> dict[str, Any]:
-    """The family's optimum, proved to 1e-4 however long it takes: bound, best time, durations [s]."""
+    """Prove the optimum of the problem's family to a gap of 1e-4.
+
+    The proof goes on for at most ten minutes.
+
+    Parameters
+    ----------
+    problem : Problem
+        The task.
+
+    Returns
+    -------
+    dict
+        bound (certified) and optimum (best verified time) [s], durations [s].
+    """
     start = family_optimum(problem, random_starts=0)
     found = family_bound(problem, gap=1e-4, time_limit=600.0, optimum=start)
     durations = None if found.durations is None else found.durations.tolist()
@@ -42,5 +53,5 @@ def certified(problem: Problem) -> dict[str, Any]:
 
 @cache
 def whole_optimum() -> dict[str, Any]:
-    """That of all joints together under the assumed limits."""
+    """The certified optimum of all joints together, under the assumed limits."""
     return certified(load("bagging"))

@@ -1,8 +1,13 @@
-"""Paper 003 (Lu & Wang 2024, Unitree Z1): every table and figure that can be made again, in its order."""
+"""Lu 2024 (Unitree Z1, B-spline, WOA): every table and figure that can be made again, in the paper's order.
+
+Each module is named by the tables and figures that it makes; the printed numbers stand in ``printed.toml``.
+"""
 
 from __future__ import annotations
 
 from compare.papers.item import Item
-from compare.papers.lu_2024 import arm, chaos, motion
+from compare.papers.lu_2024.figure_1 import FIGURE_1
+from compare.papers.lu_2024.figure_4 import FIGURE_4
+from compare.papers.lu_2024.figures_5_8 import FIGURE_5, FIGURES_6_8
 
-ITEMS: tuple[Item, ...] = (*chaos.ITEMS, *arm.ITEMS, *motion.ITEMS)
+ITEMS: tuple[Item, ...] = (FIGURE_1, FIGURE_4, FIGURE_5, FIGURES_6_8)

@@ -1,4 +1,4 @@
-"""Paper 003 (Unitree Z1): the task, waypoints in place of those it does not print, and its protocol."""
+"""Lu 2024: the task, on made waypoints since the paper prints none, and its protocol."""
 
 from __future__ import annotations
 
@@ -8,11 +8,11 @@ from typing import Any
 import numpy as np
 from numpy.random import SeedSequence
 
+from compare.audit.paper import settings
 from compare.benchmark.grade import Trace
 from compare.benchmark.objective import Objective
-from compare.papers.descent import descent
 from compare.papers.measure import judged
-from compare.papers.printed import tables
+from compare.papers.pictures.descent import descent
 from formulations import Problem, load
 from formulations.arms import load_arm
 from formulations.problem.arrays import Array
@@ -22,7 +22,17 @@ _SHORTEST = 1e-3  # s, for the printed 0: a duration is positive
 
 
 def drawn_waypoints(seed: int) -> Array:
-    """Eight waypoints by the rule of the case file (whose seed is 2024), (8, 6) [rad]."""
+    """Draw eight waypoints by the rule of the case file, whose own seed is 2024.
+
+    Parameters
+    ----------
+    seed : int
+        Of the draw.
+
+    Returns
+    -------
+    Array, shape (8, 6) [rad]
+    """
     arm, rng = load_arm("z1"), np.random.default_rng(seed)
     found: list[Array] = []
     low, high = (arm.position + np.deg2rad(5.0) * np.array([1.0, -1.0])).T
@@ -35,11 +45,23 @@ def drawn_waypoints(seed: int) -> Array:
 
 
 def plan(problem: Problem, swarm: str, runs: int) -> dict[str, Any]:
-    """Runs by the paper's protocol: its box and budget, infeasible = worst fitness; the median judged.
+    """Run a swarm by the paper's protocol: its box and budget; an infeasible candidate has the worst fitness.
 
-    seconds: of all solved runs. best: durations of the shortest.
+    Parameters
+    ----------
+    problem : Problem
+        The task.
+    swarm : str
+        A name of ``ALGORITHMS``.
+    runs : int
+        Number of runs.
+
+    Returns
+    -------
+    dict
+        runs (a count), seconds of the solved ones [s], median (judged, or None), descent.
     """
-    setup = tables("z1")["swarm"]
+    setup = settings("z1")["swarm"]
     n, iterations = setup["population"], setup["iterations"]
     entry = algorithm(swarm)
     lo, hi = np.full(problem.n_segments, _SHORTEST), np.full(problem.n_segments, float(setup["high"]))
@@ -62,5 +84,15 @@ def plan(problem: Problem, swarm: str, runs: int) -> dict[str, Any]:
 
 
 def task(family: str) -> Problem:
-    """The case z1 in one of the families compared."""
+    """Pose the case z1 in one spline family.
+
+    Parameters
+    ----------
+    family : str
+        A key of ``FAMILIES``.
+
+    Returns
+    -------
+    Problem
+    """
     return replace(load("z1"), family=family)

@@ -1,12 +1,31 @@
-"""Paper 000 (Wang et al. 2025, SR4C): every table and figure that can be made again, in its order."""
+"""Wang 2025 (SIASUN SR4C, MIPSO): every table and figure that can be made again, in the paper's order.
+
+Each module is named by the tables and figures that it makes: Table 8 is ``table_8``. Joint 1, which Tables
+8 and 10 and Figs 10 and 12 to 14 share, stands in ``joint_1``; the printed numbers in ``printed.toml``.
+"""
 
 from __future__ import annotations
 
 from compare.papers.item import Item
-from compare.papers.wang_2025 import ablation, joint_1, joints, motions, speeds, swarm
+from compare.papers.wang_2025.figure_10 import FIGURE_10
+from compare.papers.wang_2025.figures_4_5 import FIGURE_4, FIGURE_5
+from compare.papers.wang_2025.figures_7_11 import FIGURE_11, FIGURES_7_9
+from compare.papers.wang_2025.table_3 import TABLE_3
+from compare.papers.wang_2025.table_5 import TABLE_5
+from compare.papers.wang_2025.table_8 import TABLE_8
+from compare.papers.wang_2025.table_9 import TABLE_9
+from compare.papers.wang_2025.table_10 import FIGURES_12_14, TABLE_10
 
-_ORDER = ("Fig 4", "Fig 5", "Table 3", "Table 5", "Figs 7-9", "Table 8", "Fig 10", "Table 9", "Fig 11",
-          "Table 10", "Figs 12-14")  # fmt: skip
-_PARTS = (ablation, joint_1, joints, motions, speeds, swarm)
-_BY_LABEL = {item.label: item for part in _PARTS for item in part.ITEMS}
-ITEMS: tuple[Item, ...] = tuple(_BY_LABEL[label] for label in _ORDER)
+ITEMS: tuple[Item, ...] = (
+    FIGURE_4,
+    FIGURE_5,
+    TABLE_3,
+    TABLE_5,
+    FIGURES_7_9,
+    TABLE_8,
+    FIGURE_10,
+    TABLE_9,
+    FIGURE_11,
+    TABLE_10,
+    FIGURES_12_14,
+)

@@ -1,170 +1,39 @@
-"""Table 3 of Wang 2025 (``timebound ablation``), the ablation of MIPSO on CEC2017, run again.
+"""Wang 2025, Table 3 (``timebound ablation``), the ablation of MIPSO on CEC2017, run again.
 
-Protocol of its section 3.4 (--full): 100 particles, 50 dimensions, 500 iterations, 30 runs; eight
-functions of CEC2017 by minionpy. The factor of eq. 19 is the mean best fitness without a strategy over
-that with all of them: once over raw values as printed, which carry CEC2017's bias of 100 i and so hide
-most of it, and once over f - f*. Mutants count as evaluations, so every variant has the same budget.
+``--full`` runs the protocol of its sec. 3.4. The runs, factors and tests stand in ``ablation``; the page of
+the paper shows them as Table 3 (``table_3``).
 """
 
 from __future__ import annotations
 
-import importlib.util
-from dataclasses import dataclass
 from typing import Any
 
 import matplotlib.pyplot as plt
-import numpy as np
 from matplotlib.figure import Figure
-from scipy import stats
 
+from compare.papers.wang_2025.ablation import (
+    STRATEGIES,
+    Protocol,
+)
 from compare.report.style import BLUE, GREY, VERMILION, styled
 from compare.screen import table
-from formulations import InputError
-from formulations.problem.arrays import Array
-from metaheuristics import ALGORITHMS, minimise
-
-STRATEGIES = {
-    "mipso-pso1": "tent map",
-    "mipso-pso2": "dynamic factors and inertia",
-    "mipso-pso3": "mutation",
-}
-PRINTED = {  # 000, table 3: f -> PSO1, PSO2, PSO3
-    3: (1.31, 1.22, 1.07),
-    6: (1.01, 1.00, 1.04),
-    12: (1.04, 1.04, 1.07),
-    16: (1.04, 1.00, 1.02),
-    17: (1.17, 1.07, 1.25),
-    22: (1.00, 1.00, 1.01),
-    24: (1.02, 1.03, 1.00),
-    25: (1.03, 1.00, 1.01),
-}
-BOX = 100.0
-LEVEL = 0.05  # of the family of tests
-
-
-@dataclass(frozen=True)
-class Protocol:
-    """Particles, dimensions, iterations after the first population, runs."""
-
-    population: int
-    dim: int
-    iterations: int
-    runs: int
-
-
-SHORT = Protocol(100, 50, 100, 15)
-FULL = Protocol(100, 50, 500, 30)
-
-
-@dataclass(frozen=True)
-class Row:
-    """One run: best fitness, CEC2017's bias included."""
-
-    function: int
-    swarm: str
-    seed: int
-    fitness: float
-    evaluations: int
-    status: str
-
-
-def cec2017(number: int, dim: int) -> Any:
-    """Function f_i of CEC2017: (n, dim) -> list of n. Raises InputError without minionpy."""
-    if importlib.util.find_spec("minionpy") is None:
-        raise InputError("minionpy is not installed: pip install 'timebound[ablation]'")
-    from minionpy.cec import CEC2017Functions
-
-    return CEC2017Functions(number, dim)
-
-
-def repeat(number: int, swarm: str, protocol: Protocol, seeds: range) -> list[Row]:
-    """Runs of one variant on one function."""
-    f = cec2017(number, protocol.dim)
-    entry = ALGORITHMS[swarm]
-    parameters = entry.parameters | {"population": protocol.population}
-    box = np.full(protocol.dim, BOX)
-    budget = protocol.population * (protocol.iterations + 1)
-    rows = []
-    for seed in seeds:
-        # unequal seeds: the variants are compared as independent samples
-        sequence = np.random.SeedSequence([seed, number, sorted(ALGORITHMS).index(swarm)])
-        result = minimise(entry.function, f, -box, box, budget=budget, seed=sequence, **parameters)
-        rows.append(Row(number, swarm, seed, result.fitness, result.evaluations, result.status.value))
-    return rows
-
-
-def summarise(rows: list[Row]) -> dict[str, Any]:
-    """Factors with intervals, tests and verdicts: by strategy and function."""
-    functions = sorted({row.function for row in rows})
-    tests: list[tuple[str, int]] = [(s, i) for s in STRATEGIES for i in functions]
-    found: dict[str, Any] = {s: {"strategy": STRATEGIES[s], "functions": {}} for s in STRATEGIES}
-    p_values = []
-    for swarm, number in tests:
-        with_all, without = _fitness(rows, "mipso", number), _fitness(rows, swarm, number)
-        p = float(stats.mannwhitneyu(without, with_all, alternative="two-sided").pvalue)
-        p_values.append(p)
-        least = 100.0 * number
-        factor, low, high = _factor(without - least, with_all - least)
-        raw, raw_low, raw_high = _factor(without, with_all)
-        found[swarm]["functions"][number] = {
-            "printed": PRINTED[number][list(STRATEGIES).index(swarm)],
-            "raw": raw, "raw_interval": [raw_low, raw_high],
-            "factor": factor, "interval": [low, high], "p": p,
-        }  # fmt: skip
-    for (swarm, number), p in zip(tests, holm(p_values), strict=True):
-        entry = found[swarm]["functions"][number]
-        entry["p_holm"] = p
-        entry["verdict"] = (
-            "no difference" if p >= LEVEL else "helps" if entry["factor"] > 1 else "hurts"
-        )
-    return found | {"overall": _overall(found, functions)}
-
-
-def _overall(found: dict[str, Any], functions: list[int]) -> dict[str, Any]:
-    """By strategy: signed-rank test over the functions' log factors, and what the single tests say."""
-    logs = {s: [np.log(found[s]["functions"][i]["factor"]) for i in functions] for s in STRATEGIES}
-    p = [float(stats.wilcoxon(values).pvalue) for values in logs.values()]
-    overall = {}
-    for swarm, p_holm in zip(STRATEGIES, holm(p), strict=True):
-        verdicts = [found[swarm]["functions"][i]["verdict"] for i in functions]
-        mean = float(np.exp(np.mean(logs[swarm])))
-        overall[swarm] = {
-            "geometric_mean": mean,
-            "p_holm": p_holm,
-            "verdict": "not shown" if p_holm >= LEVEL else "helps" if mean > 1 else "hurts",
-            **{word: verdicts.count(word) for word in ("helps", "hurts", "no difference")},
-        }
-    return overall
-
-
-def holm(p_values: list[float]) -> list[float]:
-    """Holm-corrected p values (statsmodels)."""
-    if importlib.util.find_spec("statsmodels") is None:
-        raise InputError("statsmodels is not installed: pip install 'timebound[ablation]'")
-    from statsmodels.stats.multitest import multipletests
-
-    return [float(p) for p in multipletests(p_values, method="holm")[1]]
-
-
-def _fitness(rows: list[Row], swarm: str, number: int) -> Array:
-    return np.array([row.fitness for row in rows if (row.swarm, row.function) == (swarm, number)])
-
-
-def _factor(without: Array, with_all: Array) -> tuple[float, float, float]:
-    """Eq. 19, a ratio of means, with its 95 % bootstrap interval."""
-
-    def ratio(a: Array, b: Array, axis: int) -> Array:
-        return np.asarray(a.mean(axis=axis) / b.mean(axis=axis))
-
-    interval = stats.bootstrap(
-        (without, with_all), ratio, n_resamples=2000, method="percentile", rng=np.random.default_rng(0)
-    ).confidence_interval
-    return float(without.mean() / with_all.mean()), float(interval.low), float(interval.high)
 
 
 @styled
 def ablation_figure(summary: dict[str, Any], protocol: Protocol) -> Figure:
-    """A panel per strategy, a row per function: the printed factor, ours raw, ours over f - f*."""
+    """Draw a panel per strategy and a row per function: printed, raw and over f - f*.
+
+    Parameters
+    ----------
+    summary : dict
+        Of ``ablation.summarise``.
+    protocol : Protocol
+        For the title.
+
+    Returns
+    -------
+    Figure
+    """
     figure, panels = plt.subplots(1, len(STRATEGIES), figsize=(10.5, 3.6), sharey=True)
     for axes, (swarm, strategy) in zip(panels, STRATEGIES.items(), strict=True):
         functions = summary[swarm]["functions"]
@@ -203,7 +72,17 @@ def ablation_figure(summary: dict[str, Any], protocol: Protocol) -> Figure:
 
 
 def as_text(summary: dict[str, Any]) -> str:
-    """Table 3 with intervals and verdicts, and the verdict per strategy."""
+    """Write factors, intervals, tests and verdicts for the terminal.
+
+    Parameters
+    ----------
+    summary : dict
+        Of ``ablation.summarise``.
+
+    Returns
+    -------
+    str
+    """
     lines = []
     for swarm, strategy in STRATEGIES.items():
         for number, e in summary[swarm]["functions"].items():

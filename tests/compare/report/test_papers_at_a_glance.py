@@ -102,7 +102,7 @@ def test_audits_are_stored_kept_and_made_again(tmp_path: Path) -> None:
     context = papers_context(store, tmp_path, ["z1"])
     page = environment(tmp_path).get_template("papers.html.j2").render(context)
     assert 'href="papers/z1.html"' in page
-    assert "003: Unitree Z1" in page
+    assert "Lu 2024: Unitree Z1" in page
     path.write_text("{")
     with pytest.raises(InputError, match=r"audit\.json: cannot be read"):
         store.audits()

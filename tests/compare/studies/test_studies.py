@@ -15,8 +15,8 @@ from hypothesis import strategies as st
 from compare.benchmark.grade import Run, grade
 from compare.benchmark.objective import Objective, search_box
 from compare.benchmark.suite import DEFAULT_CONTROLS, FULL_CONTROLS, QUICK_SWARMS, runs, swarms_of
-from compare.papers.wang_2025 import cec2017 as ablation
-from compare.papers.wang_2025 import table_8 as table8
+from compare.papers.wang_2025 import ablation, cec2017
+from compare.papers.wang_2025 import joint_1 as table8
 from compare.studies import bias, readings
 from compare.studies.origin_shift import COORDINATES, seen_in
 from compare.studies.speed_swarms import costs
@@ -175,7 +175,9 @@ def test_a_planted_strategy_is_found_and_nothing_else() -> None:
         for swarm in ("mipso", *ablation.STRATEGIES):
             worse = 3.0 if swarm == "mipso-pso3" else 1.0
             rows += [
-                ablation.Row(number, swarm, seed, 100 * number + worse * (10 + rng.normal()), 1, "ok")
+                ablation.AblationRun(
+                    number, swarm, seed, 100 * number + worse * (10 + rng.normal()), 1, "ok"
+                )
                 for seed in range(12)
             ]
     summary = ablation.summarise(rows)
@@ -186,7 +188,7 @@ def test_a_planted_strategy_is_found_and_nothing_else() -> None:
     entry = summary["mipso-pso3"]["functions"][17]
     assert entry["interval"][0] < 3.0 < entry["interval"][1]
     assert entry["raw"] < 1.02  # the bias of 1700 hides a factor of three
-    assert "mutation: helps on 8" in ablation.as_text(summary)
+    assert "mutation: helps on 8" in cec2017.as_text(summary)
 
 
 def test_the_protocol_of_the_paper_is_the_full_one() -> None:

@@ -1,1 +1,0 @@
-"""What the papers print, digit by digit, as data: one TOML per paper."""

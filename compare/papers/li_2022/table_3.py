@@ -1,0 +1,211 @@
+"""Li 2022, Table 3: every joint by MPSO, and the rule of the longest time per segment."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from typing import Any
+
+import numpy as np
+
+from compare.audit.motion.printed_motion import PrintedMotion
+from compare.audit.paper import PrintedTimes, settings, with_limits
+from compare.audit.paper.digits import values
+from compare.benchmark.grade import Graded, durations_of
+from compare.benchmark.objective import Objective
+from compare.papers.item import Item, Shown, Table
+from compare.papers.li_2022.paper import READINGS, SWARMS, budget, certified, paper, rows, whole_optimum
+from compare.papers.measure import judged, summary, trials
+from compare.papers.verdicts import AT_A_LIMIT, BEST, agrees, yes_no
+from compare.papers.words import listed
+from formulations import Problem, load, longest_segment
+from formulations.problem.arrays import Array
+from metaheuristics import ALGORITHMS, minimise
+
+
+def boxed(problem: Problem, seed: int) -> Array:
+    """Search durations by MPSO as printed, in a box from Table 3's least time to the first plan.
+
+    Parameters
+    ----------
+    problem : Problem
+        One joint.
+    seed : int
+        Of the run.
+
+    Returns
+    -------
+    Array, shape (n_segments,) [s]
+        Empty if nothing feasible was found.
+    """
+    low, high = (np.full(problem.n_segments, edge) for edge in settings("bagging")["box"]["seconds"])
+    entry, objective = ALGORITHMS["mpso"], Objective(problem, stretch=False)
+    parameters = entry.parameters | {"population": budget().population}
+    size = budget().evaluations
+    found = minimise(entry.function, objective, low, high, budget=size, seed=seed, **parameters)
+    return np.zeros(0) if found.x is None else found.x
+
+
+def make_table_3(full: bool) -> dict[str, Any]:
+    """Judge each joint as printed, repeat it with every reading, and certify its optimum."""
+    problem = load("bagging")
+    single, whole = rows()
+    runs = 30 if full else 10
+    joints: list[dict[str, Any]] = []
+    found: dict[str, list[list[Graded]]] = {swarm: [] for swarm in SWARMS}
+    for row in single:
+        assert row.joint is not None
+        one, motion = problem.joint(row.joint), PrintedMotion.of(paper(), row)
+        for swarm in SWARMS:
+            found[swarm].append(trials(one, swarm, budget(), runs))
+        joints.append({
+            "joint": row.joint + 1,
+            "times": [str(time) for time in row.times],
+            "printed": judged(one, values(row.times)),
+            "speed": float(motion.implied[0, 0]),
+            "own": certified(with_limits(motion.problem, motion.implied)),
+            "least": certified(one),
+            "trials": {swarm: summary(found[swarm][-1]) for swarm in SWARMS},
+        })  # fmt: skip
+    vectors = {s: [[durations_of(g.row) for g in group] for group in found[s]] for s in SWARMS}
+    vectors["boxed"] = [
+        # unequal seeds: the joints are searched independently
+        [boxed(problem.joint(j["joint"] - 1), 100 * seed + j["joint"]) for seed in range(runs)]
+        for j in joints
+    ]
+    for j, group in zip(joints, vectors["boxed"], strict=True):
+        solved = sorted((v for v in group if v.size), key=lambda v: float(v.sum()))
+        median = solved[(len(solved) - 1) // 2] if solved else None
+        j["trials"]["boxed"] = {
+            "durations": None if median is None else median.tolist(),
+            "median": None if median is None else float(median.sum()),
+        }
+    return {
+        "runs": runs,
+        "limit": float(problem.limits.velocity[0]),
+        "joints": joints,
+        "starred": {"times": [str(t) for t in whole.times], "total": str(whole.total),
+                    **judged(problem, values(whole.times)), "speed": float(_speeds(whole).max())},
+        "rule": {s: [_rule(problem, group) for group in zip(*vectors[s], strict=True)] for s in vectors},
+        "least": whole_optimum(),
+        "first_plan": sum(settings("bagging")["first_plan"]["times"]),
+    }  # fmt: skip
+
+
+def _speeds(row: PrintedTimes) -> Array:
+    """Peak speed of each joint that moves in a printed motion of all joints [rad/s]."""
+    implied = PrintedMotion.of(paper(), row).implied[0]
+    return np.asarray(implied[np.isfinite(implied)])
+
+
+def _rule(problem: Problem, vectors: tuple[Array, ...]) -> dict[str, Any] | None:
+    """Judge the longest time per segment over the joints of one seed; None if a run failed."""
+    if not all(v.size for v in vectors):
+        return None
+    return judged(problem, longest_segment(problem, list(vectors)).claimed)
+
+
+def show_table_3(data: dict[str, Any]) -> Shown:
+    """Show joint by joint, the speeds behind the printed times, and the rule."""
+    header = ["joint", "", *(f"Δt{k}" for k in range(1, 7)), "total"]
+    lines = []
+    for j in data["joints"]:
+        number = str(j["joint"])
+        lines.append([number, "printed", *j["times"], f"{j['printed']['seconds']:.4f}"])
+        for swarm, title in READINGS.items():
+            t = j["trials"][swarm]
+            cells = (
+                ["none"] * 7
+                if t["durations"] is None
+                else [f"{x:.4f}" for x in (*t["durations"], t["median"])]
+            )
+            lines.append([number, f"reproduced, {title}", *cells])
+        cells = [f"{x:.4f}" for x in (*j["least"]["durations"], j["least"]["optimum"])]
+        lines.append([number, "certified optimum", *cells])
+    s, least = data["starred"], data["least"]
+    lines.append(["longest", "printed (starred)", *s["times"], s["total"]])
+    for swarm, title in READINGS.items():
+        rule = _median(data["rule"][swarm])
+        cells = (
+            ["none"] * 7
+            if rule is None
+            else [f"{x:.4f}" for x in (*rule["durations"], rule["seconds"])]
+        )
+        lines.append(["longest", f"reproduced, {title}", *cells])
+    cells = [f"{x:.4f}" for x in (*least["durations"], least["optimum"])]
+    lines.append(["all together", "certified optimum", *cells])
+    caption = (
+        f"Times [s]; reproduced: median of {data['runs']} seeds under {data['limit']:.4f} rad/s. Certified "
+        "optimum: nothing is faster by more than 1e-4 of it."
+    )
+    own = Table(
+        ["joint", "peak speed [rad/s]", "of pi rad/s", "printed total [s]", "optimum there [s]", "ratio"],
+        [[str(j["joint"]), f"{j['speed']:.4f}", f"{100 * j['speed'] / data['limit']:.1f} %",
+          f"{j['printed']['seconds']:.4f}", f"{j['own']['optimum']:.4f}",
+          f"{j['printed']['seconds'] / j['own']['optimum']:.2f}"] for j in data["joints"]],
+        "What each printed vector would need as its velocity limit, and the certified optimum under it.",
+        range(1, 6),
+    )  # fmt: skip
+    return Shown([Table(header, lines, caption, range(2, 9)), own], _remarks_3(data))
+
+
+def _median(rule: Sequence[dict[str, Any] | None]) -> dict[str, Any] | None:
+    solved = sorted((r for r in rule if r is not None), key=lambda r: float(r["seconds"]))
+    return solved[(len(solved) - 1) // 2] if solved else None
+
+
+def _remarks_3(data: dict[str, Any]) -> list[str]:
+    limit, s, least = data["limit"], data["starred"], data["least"]
+    near = [str(j["joint"]) for j in data["joints"] if abs(j["speed"] / limit - 1.0) < AT_A_LIMIT]
+    over = [
+        f"{j['joint']} ({j['speed']:.2f} rad/s)"
+        for j in data["joints"]
+        if j["speed"] > limit * (1.0 + AT_A_LIMIT)
+    ]
+    ratios = [j["printed"]["seconds"] / j["own"]["optimum"] for j in data["joints"]]
+    best = sum(ratio <= 1.0 + BEST for ratio in ratios)
+    times = [float(t) for t in s["times"]]
+    saved = 100 * (1 - sum(times) / data["first_plan"])
+    adds_up = abs(sum(times) - float(s["total"])) <= 5e-5
+    remarks = [
+        f"The velocity limit is not printed. Joints whose printed vector reaches pi rad/s within 1 %: "
+        f"{listed(near)}; joints whose vector goes beyond it: {listed(over)}."
+        + (" No one limit fits them all." if near and over else ""),
+        f"{best} of {len(ratios)} printed vectors are at the certified optimum under their own peak speed, "
+        f"whatever the limit was. They take {min(ratios):.2f} to {max(ratios):.2f} times that optimum.",
+        f"The starred times add up to {sum(times):.4f} s, printed {s['total']} s, {agrees(adds_up)}: "
+        f"{saved:.2f} "
+        f"% less than {data['first_plan']} s. Their motion peaks at {s['speed']:.4f} rad/s and keeps pi rad/s: "
+        f"{yes_no(s['keeps'])}. The optimum under pi rad/s, without a limit on acceleration, takes "
+        f"{least['optimum']:.4f} s (certified for the family: not less than {least['bound']:.4f} s).",
+    ]
+    for swarm, title in READINGS.items():
+        solved = [r for r in data["rule"][swarm] if r is not None]
+        if not solved:
+            remarks.append(
+                f"With {title} none of {data['runs']} seeds found a feasible motion of every joint."
+            )
+            continue
+        claims = sorted(r["seconds"] for r in solved)
+        honest = sorted(r["seconds"] * max(r["stretch"], 1.0) for r in solved)
+        kept = sum(r["keeps"] for r in solved)
+        inside = claims[0] <= float(s["total"]) <= claims[-1]
+        remarks.append(
+            f"Reproduced with {title}, the rule claims {claims[0]:.4f} to {claims[-1]:.4f} s; {kept} of "
+            f"{len(solved)} motions keep the limits. Slowed down until they keep them, they take "
+            f"{honest[0]:.4f} to {honest[-1]:.4f} s. The printed {s['total']} s "
+            f"{'lies' if inside else 'does not lie'} within the range of the claims."
+        )
+    return remarks
+
+
+TABLE_3 = Item(
+    "Table 3",
+    "times of every joint by MPSO, and the longest per segment",
+    make_table_3,
+    show_table_3,
+    "The paper prints neither the velocity limit nor the search box nor the updates of eq. 12-13: pi rad/s, a "
+    "box of 3 equal plans and the standard updates are taken. Other readings: the factors, 0.05 falling to "
+    "0.02, times ten; a box from 0.1 s, the least time of the table, to 2 s, the first plan. 20 particles, "
+    "200 iterations.",
+    cost=25.0,
+)

@@ -1,0 +1,1 @@
+"""Pictures that several papers share: curves of joints, paths of the tool, descents of swarms."""
