@@ -22,7 +22,9 @@ def make_times(full: bool) -> dict[str, Any]:
     """The improved PSO on each joint alone, then on the whole arm, as sec. 2.3 says."""
     paper, problem = load_papers("cobot")[0], load("cobot")
     budget, runs = PAPER_BUDGETS["cobot"], RUNS[full]
-    alone = [summary(trials(problem.joint(j), "pso-zhang-2025", budget, runs)) for j in range(problem.dof)]
+    alone = [
+        summary(trials(problem.joint(j), "pso-zhang-2025", budget, runs)) for j in range(problem.dof)
+    ]
     whole = summary(trials(problem, "pso-zhang-2025", budget, runs))
     rule = longest_segment(problem, [np.array(found["durations"]) for found in alone])
     rows = [row for row in paper.rows if row.by == "improved PSO"]
