@@ -84,7 +84,7 @@ def test_the_recipe_for_a_swarm(tmp_path: Path) -> None:
     lines = lines.replace("from metaheuristics.swarms.", f"{imported}from metaheuristics.swarms.", 1)
     before = "_ENTRIES = [\n"
     assert before in lines
-    registry.write_text(lines.replace(before, f"{before}    {entry.strip()}\n", 1), "utf-8")
+    registry.write_text(lines.replace(before, f"{before}    {entry.strip()},\n", 1), "utf-8")
 
     # 3. grade it, by the command of the recipe
     words = re.search(r"`python -m (compare\.all --swarms [^`:]+)` grades it", text)
