@@ -18,7 +18,7 @@ from formulations.problem.errors import NoFeasibleMotion, UnsupportedProblem
 from formulations.problem.problem import Problem
 from formulations.proofs.every_motion.bound import FreeFormBound
 from formulations.proofs.family import FamilyBound
-from formulations.references.reference import Kind, Outcome, Rung, Status, Takes
+from formulations.references.reference import Outcome, OutcomeStatus, Rung, RungKind, Takes
 
 
 @dataclass(frozen=True)
@@ -28,8 +28,8 @@ class RungResult:
     Attributes
     ----------
     key : str
-    kind : Kind
-    status : Status
+    kind : RungKind
+    status : OutcomeStatus
     seconds : float or None
         The number [s]; None unless the status is ok.
     certified : bool
@@ -42,8 +42,8 @@ class RungResult:
     """
 
     key: str
-    kind: Kind
-    status: Status
+    kind: RungKind
+    status: OutcomeStatus
     seconds: float | None
     certified: bool
     runtime: float
@@ -213,8 +213,8 @@ class Climb:
         started = time.perf_counter()
         outcome = self._judged(rung, self._found(rung))
         runtime = time.perf_counter() - started
-        shown = rung.kind is Kind.LOWER or outcome.trajectory is not None
-        certified = rung.certified and outcome.status is Status.OK and shown
+        shown = rung.kind is RungKind.LOWER or outcome.trajectory is not None
+        certified = rung.certified and outcome.status is OutcomeStatus.OK and shown
         self.results[rung.key] = RungResult(
             rung.key, rung.kind, outcome.status, outcome.seconds, certified, runtime, outcome.note
         )
@@ -240,7 +240,7 @@ class Climb:
 
     def _judged(self, rung: Rung, outcome: Outcome) -> Outcome:
         """Check the motion of an upper bound, whoever made it."""
-        if rung.kind is not Kind.UPPER or outcome.trajectory is None:
+        if rung.kind is not RungKind.UPPER or outcome.trajectory is None:
             return outcome
         verdict = check(self.problem, outcome.trajectory)
         if verdict.feasible:

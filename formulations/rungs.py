@@ -22,7 +22,7 @@ from formulations.proofs.every_motion.bound import free_form_bound
 from formulations.proofs.family import family_bound
 from formulations.references.copp_ import COPP_FAMILY_PATH
 from formulations.references.displacement import DISPLACEMENT
-from formulations.references.reference import Kind, Outcome, Rung, Takes
+from formulations.references.reference import Outcome, Rung, RungKind, Takes
 from formulations.references.ruckig_ import RUCKIG_END_TO_END, RUCKIG_STOP_AND_GO
 from formulations.references.toppra_ import TOPPRA_CUBIC, TOPPRA_FAMILY_PATH
 
@@ -192,7 +192,7 @@ RUNGS: dict[str, Rung] = {
         RUCKIG_END_TO_END,
         Rung(
             key="free_form_lower",
-            kind=Kind.LOWER,
+            kind=RungKind.LOWER,
             name="best bound on any motion",
             meaning="no motion is faster: the best such bound",
             find=_free_form_lower,
@@ -202,7 +202,7 @@ RUNGS: dict[str, Rung] = {
         ),
         Rung(
             key="free_form",
-            kind=Kind.UPPER,
+            kind=RungKind.UPPER,
             name="fastest motion known",
             meaning="fastest verified motion through the waypoints",
             find=_free_form,
@@ -213,7 +213,7 @@ RUNGS: dict[str, Rung] = {
         RUCKIG_STOP_AND_GO,
         Rung(
             key="family_lower",
-            kind=Kind.LOWER,
+            kind=RungKind.LOWER,
             name="certified bound of the family",
             meaning="no durations in the family are faster, certified",
             find=_family_lower,
@@ -223,7 +223,7 @@ RUNGS: dict[str, Rung] = {
         ),
         Rung(
             key="family",
-            kind=Kind.UPPER,
+            kind=RungKind.UPPER,
             name="optimum of the family",
             meaning="exact NLP optimum of the family",
             find=_family,
@@ -232,7 +232,7 @@ RUNGS: dict[str, Rung] = {
         ),
         Rung(
             key="family_longest_segment",
-            kind=Kind.UPPER,
+            kind=RungKind.UPPER,
             name="each joint alone, longest time per segment, stretched",
             meaning="each joint alone, longest time per segment, stretched",
             find=_longest_segment,

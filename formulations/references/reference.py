@@ -10,7 +10,7 @@ from formulations.motion.trajectory import Trajectory
 from formulations.problem.arrays import Array
 
 
-class Kind(StrEnum):
+class RungKind(StrEnum):
     """What the number of a rung says about the fastest motion."""
 
     LOWER = "lower"  # no motion (of the family) is faster
@@ -18,7 +18,7 @@ class Kind(StrEnum):
     REFERENCE = "reference"  # neither: a timing to compare with
 
 
-class Status(StrEnum):
+class OutcomeStatus(StrEnum):
     """How the method of a rung ended."""
 
     OK = "ok"
@@ -40,7 +40,7 @@ class Outcome:
 
     Attributes
     ----------
-    status : Status
+    status : OutcomeStatus
     seconds : float, optional
         The timing [s]; None unless the status is ok.
     durations : Array, shape (n_segments,), optional
@@ -59,7 +59,7 @@ class Outcome:
 
     """
 
-    status: Status
+    status: OutcomeStatus
     seconds: float | None = None
     durations: Array | None = None
     trajectory: Trajectory | None = None
@@ -91,7 +91,7 @@ class Outcome:
         Outcome
 
         """
-        return Outcome(Status.OK, seconds, durations, trajectory, note)
+        return Outcome(OutcomeStatus.OK, seconds, durations, trajectory, note)
 
     @staticmethod
     def not_applicable(reason: str) -> Outcome:
@@ -107,7 +107,7 @@ class Outcome:
         Outcome
 
         """
-        return Outcome(Status.NOT_APPLICABLE, note=reason)
+        return Outcome(OutcomeStatus.NOT_APPLICABLE, note=reason)
 
     @staticmethod
     def failed(reason: str) -> Outcome:
@@ -123,7 +123,7 @@ class Outcome:
         Outcome
 
         """
-        return Outcome(Status.FAILED, note=reason)
+        return Outcome(OutcomeStatus.FAILED, note=reason)
 
 
 @dataclass(frozen=True)
@@ -134,7 +134,7 @@ class Rung:
     ----------
     key : str
         Name in the JSON of the ladder.
-    kind : Kind
+    kind : RungKind
     name : str
         Name in pictures.
     meaning : str
@@ -151,7 +151,7 @@ class Rung:
     """
 
     key: str
-    kind: Kind
+    kind: RungKind
     name: str
     meaning: str
     find: Callable[..., Outcome]

@@ -12,7 +12,9 @@ import pytest
 import formulations
 
 MODULES = [
-    info.name for info in pkgutil.walk_packages(formulations.__path__, "formulations.") if not info.ispkg
+    info.name
+    for info in pkgutil.walk_packages(formulations.__path__, "formulations.")
+    if not info.ispkg
 ]
 FINDER = doctest.DocTestFinder(exclude_empty=True)
 
@@ -23,7 +25,9 @@ def test_the_examples_of_a_module_run(name: str) -> None:
     assert doctest.testmod(module).failed == 0
 
 
-@pytest.mark.parametrize("name", [n for n in formulations.__all__ if callable(getattr(formulations, n))])
+@pytest.mark.parametrize(
+    "name", [n for n in formulations.__all__ if callable(getattr(formulations, n))]
+)
 def test_every_public_function_and_class_has_a_docstring_of_its_own(name: str) -> None:
     thing = getattr(formulations, name)
     text = inspect.getdoc(thing) or ""
@@ -31,7 +35,9 @@ def test_every_public_function_and_class_has_a_docstring_of_its_own(name: str) -
     assert not text.startswith(f"{name}(")  # what a dataclass gets without one
 
 
-@pytest.mark.parametrize("name", ["load", "parse", "check", "ladder", "Problem", "Limits", "Conditions"])
+@pytest.mark.parametrize(
+    "name", ["load", "parse", "check", "ladder", "Problem", "Limits", "Conditions"]
+)
 def test_the_first_names_that_a_reader_meets_show_an_example(name: str) -> None:
     examples = FINDER.find(getattr(formulations, name), name)
     assert sum(len(found.examples) for found in examples) > 0

@@ -29,7 +29,7 @@ from formulations import (
     parse,
 )
 from formulations.climb import Climb
-from formulations.references import Kind, Outcome, Rung
+from formulations.references import Outcome, Rung, RungKind
 
 KINDS = {key: rung.kind for key, rung in RUNGS.items()}
 AGREED = {  # keys and kinds that other programs read; new ones may join
@@ -153,7 +153,7 @@ def test_an_upper_bound_whose_motion_breaks_a_limit_is_failed() -> None:
     def too_fast(problem: Problem) -> Outcome:
         return Outcome.ok(motion.seconds / 2.0, trajectory=motion.stretched(0.5))
 
-    rung = Rung("mine", Kind.UPPER, "mine", "a motion", too_fast, certified=True)
+    rung = Rung("mine", RungKind.UPPER, "mine", "a motion", too_fast, certified=True)
     found = Climb(problem).run({"mine": rung}, lambda key: None).rungs["mine"]
     assert (found.status, found.seconds, found.certified) == ("failed", None, False)
     assert "over the limit" in found.note
