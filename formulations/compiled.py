@@ -21,6 +21,8 @@ from numba.core.dispatcher import Dispatcher
 
 # IEEE division: a candidate with a zero duration is infeasible (inf or NaN), not an exception
 compiled = njit(cache=True, error_model="numpy")
+# a part of one compiled function: inlined, as passing large named tuples takes time
+inlined = njit(inline="always", error_model="numpy")
 
 _PATIENCE = 5.0  # s of interpretation that are worth a compilation
 

@@ -16,7 +16,17 @@ LARGEST_FILE = 400_000_000
 
 
 def compare_with(data: Any, file_or_case: str) -> None:
-    """Refuse a certificate of another problem. The one place that uses the project's own loader."""
+    """Refuse a certificate that is about another problem.
+
+    This is the one place that uses the project's own loader.
+
+    Parameters
+    ----------
+    data : dict
+        A certificate that was verified.
+    file_or_case : str
+        The problem it must be about.
+    """
     from formulations import InputError, load
 
     try:
@@ -44,7 +54,18 @@ def compare_with(data: Any, file_or_case: str) -> None:
 
 
 def read(path: Path) -> Any:
-    """The data in a file. Raises BadInput."""
+    """Read the data in a file.
+
+    Parameters
+    ----------
+    path : Path
+        The file.
+
+    Returns
+    -------
+    object
+        The data; raises BadInput if it is no JSON.
+    """
 
     def no_constant(name: str) -> Any:
         raise BadInput(f"{path}: {name} in the file")

@@ -1,4 +1,4 @@
-"""The answers but one: a proof that does not hold, a file that is none."""
+"""The two answers beside "certified": the proof does not hold, or the file is no certificate."""
 
 from __future__ import annotations
 
@@ -8,10 +8,23 @@ class Refused(Exception):  # noqa: N818  # an answer, not a failure
 
 
 class BadInput(Exception):  # noqa: N818
-    """Not a certificate."""
+    """The file is no certificate; the message says why."""
 
 
 def need(holds: object, reason: str) -> None:
-    """Refuse unless it holds."""
+    """Refuse the certificate unless a statement holds.
+
+    Parameters
+    ----------
+    holds : object
+        The statement; a comparison of balls is true only if it is so for all their numbers.
+    reason : str
+        What does not hold.
+
+    Raises
+    ------
+    Refused
+        If the statement does not hold.
+    """
     if not holds:
         raise Refused(reason)

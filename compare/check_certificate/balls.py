@@ -1,4 +1,4 @@
-"""Balls and intervals of balls: the arithmetic that every step of a proof is checked in."""
+"""Ball arithmetic (python-flint's arb), and intervals with balls as ends: every check is made in it."""
 
 from __future__ import annotations
 
@@ -16,7 +16,18 @@ Interval = tuple[Any, Any]
 
 
 def least(*numbers: Any) -> Any:
-    """The least of several numbers."""
+    """Take the least of several numbers.
+
+    Parameters
+    ----------
+    numbers : arb
+        At least one.
+
+    Returns
+    -------
+    arb
+        The least.
+    """
     value = numbers[0]
     for x in numbers[1:]:
         value = value.min(x)
@@ -24,7 +35,18 @@ def least(*numbers: Any) -> Any:
 
 
 def most(*numbers: Any) -> Any:
-    """The greatest of several numbers."""
+    """Take the greatest of several numbers.
+
+    Parameters
+    ----------
+    numbers : arb
+        At least one.
+
+    Returns
+    -------
+    arb
+        The greatest.
+    """
     value = numbers[0]
     for x in numbers[1:]:
         value = value.max(x)
@@ -32,24 +54,74 @@ def most(*numbers: Any) -> Any:
 
 
 def times(k: Any, a: Interval) -> Interval:
-    """K [a, b]."""
+    """Enclose k [a, b].
+
+    Parameters
+    ----------
+    k : arb
+        A factor.
+    a : Interval
+        An interval.
+
+    Returns
+    -------
+    Interval
+        Their product.
+    """
     p, q = k * a[0], k * a[1]
     return p.min(q), p.max(q)
 
 
 def plus(a: Interval, b: Interval) -> Interval:
-    """[a] + [b]."""
+    """Enclose [a] + [b].
+
+    Parameters
+    ----------
+    a, b : Interval
+        The addends.
+
+    Returns
+    -------
+    Interval
+        Their sum.
+    """
     return a[0] + b[0], a[1] + b[1]
 
 
 def product(a: Interval, b: Interval) -> Interval:
-    """[a] [b]."""
+    """Enclose [a] [b].
+
+    Parameters
+    ----------
+    a, b : Interval
+        The factors.
+
+    Returns
+    -------
+    Interval
+        Their product.
+    """
     each = (a[0] * b[0], a[0] * b[1], a[1] * b[0], a[1] * b[1])
     return least(*each), most(*each)
 
 
 def least_quadratic(slopes: Interval, k: Any, lo: Any, hi: Any) -> Any:
-    """Least b d + k d^2 over d in [lo, hi] and b in its interval: at an end, as it is linear in b."""
+    """Bound b d + k d^2 from below over d in [lo, hi] and b in an interval.
+
+    It is linear in b, so an end of the interval is least.
+
+    Parameters
+    ----------
+    slopes : Interval
+        Of b.
+    k, lo, hi : arb
+        Curvature, and ends of d.
+
+    Returns
+    -------
+    arb
+        The bound.
+    """
     k, values = k.lower(), []
     for b in slopes:
         values += [(b + k * lo) * lo, (b + k * hi) * hi]
@@ -61,10 +133,24 @@ def least_quadratic(slopes: Interval, k: Any, lo: Any, hi: Any) -> Any:
 
 
 def least_share(a: Interval, k: Any, nu: Any, w1: Any, w2: Any, c: Any, lo: Any, hi: Any) -> Any:
-    """Lower bound of a (x - c) + k x^2 + (nu - w1)/x - w2/x^2 over x in [lo, hi], by divided
-    differences.
+    """Bound a (x - c) + k x^2 + (nu - w1)/x - w2/x^2 from below over x in [lo, hi].
 
-    1/x = 1/c - e/c^2 + e^2/(c^2 x), 1/x^2 = 1/c^2 - 2e/c^3 + e^2 (2/(c^3 x) + 1/(c^2 x^2)), e = x - c.
+    With e = x - c, exactly: 1/x = 1/c - e/c^2 + e^2/(c^2 x) and
+    1/x^2 = 1/c^2 - 2e/c^3 + e^2 (2/(c^3 x) + 1/(c^2 x^2)). What is left is a quadratic in e.
+
+    Parameters
+    ----------
+    a : Interval
+        Of the slope.
+    k, nu, w1, w2 : arb
+        Coefficients; nu, w1, w2 >= 0.
+    c, lo, hi : arb
+        The x that it is expanded about, and ends of x; all > 0.
+
+    Returns
+    -------
+    arb
+        The bound.
     """
     const = k * c * c + (nu - w1) / c - w2 / (c * c)
     slope = 2 * c * k - (nu - w1) / (c * c) + 2 * w2 / (c * c * c)
@@ -75,7 +161,22 @@ def least_share(a: Interval, k: Any, nu: Any, w1: Any, w2: Any, c: Any, lo: Any,
 
 
 def derivative(coefficients: list[int], order: int, s: Any) -> Any:
-    """A derivative in s of sum c_i s^i."""
+    """Evaluate a derivative in s of sum c_i s^i.
+
+    Parameters
+    ----------
+    coefficients : list of int
+        The c_i, ascending.
+    order : int
+        Of the derivative.
+    s : arb
+        Where.
+
+    Returns
+    -------
+    arb
+        The value.
+    """
     c = list(coefficients)
     for _ in range(order):
         c = [i * x for i, x in enumerate(c)][1:]
@@ -86,7 +187,18 @@ def derivative(coefficients: list[int], order: int, s: Any) -> Any:
 
 
 def inverse_of(rows: list[list[Any]]) -> list[list[Any]]:
-    """The inverse of a square matrix."""
+    """Invert a square matrix.
+
+    Parameters
+    ----------
+    rows : list of list of arb
+        The matrix.
+
+    Returns
+    -------
+    list of list of arb
+        Its inverse. Refuses the certificate if the matrix may be singular.
+    """
     try:
         inverse: list[list[Any]] = arb_mat(rows).inv().tolist()
     except ZeroDivisionError:

@@ -1,4 +1,4 @@
-"""What a certificate claims, read from a file that nobody vouches for."""
+"""The claim of a certificate, read from a file that may be wrong or hostile."""
 
 from __future__ import annotations
 
@@ -13,7 +13,18 @@ MOST_EVENTS, MOST_SEGMENTS, MOST_JOINTS = 3_000_000, 50, 50
 
 
 def number(text: Any) -> Any:
-    """The number that the hexadecimal text of a finite float stands for, exactly."""
+    """Read a finite float from its hexadecimal text, exactly.
+
+    Parameters
+    ----------
+    text : object
+        From the file.
+
+    Returns
+    -------
+    arb
+        The number.
+    """
     if not isinstance(text, str) or len(text) > 40:
         raise BadInput(f"expected a hexadecimal float, got {text!r:.40}")
     try:
@@ -26,21 +37,51 @@ def number(text: Any) -> Any:
 
 
 def index(value: Any, below: int) -> int:
-    """An integer in 0 .. below - 1."""
+    """Read an integer in 0 .. below - 1.
+
+    Parameters
+    ----------
+    value : object
+        From the file.
+    below : int
+        The first integer that is too large.
+
+    Returns
+    -------
+    int
+        The integer.
+    """
     if type(value) is not int or not 0 <= value < below:
         raise BadInput(f"expected an integer from 0 to {below - 1}, got {value!r:.40}")
     return value
 
 
 def items(value: Any, least: int, most: int) -> list[Any]:
-    """A list of bounded length."""
+    """Read a list of bounded length.
+
+    Parameters
+    ----------
+    value : object
+        From the file.
+    least, most : int
+        The least and the greatest length.
+
+    Returns
+    -------
+    list
+        The list.
+    """
     if not isinstance(value, list) or not least <= len(value) <= most:
         raise BadInput(f"expected a list of {least} to {most} entries, got {value!r:.40}")
     return value
 
 
 class Claim:
-    """What a certificate claims: data as exact numbers, None for no limit."""
+    """The problem and the bound of a certificate, as exact numbers; None stands for no limit.
+
+    w, d: waypoints and displacements [rad]; limits: of velocity, acceleration, jerk; L: the bound [s];
+    events: the proof, not looked at yet.
+    """
 
     def __init__(self, data: Any) -> None:
         if not isinstance(data, dict) or data.get("format") != FORMAT:
@@ -74,24 +115,61 @@ class Claim:
         ]
         self.moving = [j for j in range(self.dof) if not all(row[j] == 0 for row in self.d)]
         need(self.moving, "nothing moves: any motion is as fast as it likes")
-        # a thousandth more, as the prover proves it too
+        # the prover widens the limits by a thousandth more
         self.slack *= R(1001) / 1000
 
     def limit(self, order: int, j: int) -> Any:
-        """A limit that a row may pose."""
+        """Look up a limit that a row poses.
+
+        Parameters
+        ----------
+        order : int
+            1: velocity, 2: acceleration, 3: jerk.
+        j : int
+            The joint.
+
+        Returns
+        -------
+        arb
+            The limit. Refuses the certificate if there is none.
+        """
         value = self.limits[order - 1][j]
         need(value is not None, f"a row poses a limit that joint {j + 1} does not have")
         return value
 
     def room(self, k: int, j: int, sign: int) -> Any:
-        """From waypoint k to the position limit above (sign 1) or below (-1), as widened."""
+        """Measure the room from a waypoint to a position limit, widened by the slack.
+
+        Parameters
+        ----------
+        k, j : int
+            Waypoint and joint.
+        sign : int
+            1: the limit above, -1: below.
+
+        Returns
+        -------
+        arb [rad]
+            The room. Refuses the certificate if there is no such limit.
+        """
         bound: Any = self.position[j][sign > 0]
         need(bound is not None, f"a row poses a limit that joint {j + 1} does not have")
         far = most(sign * bound, *(sign * row[j] for row in self.w))
         return far - sign * self.w[k][j] + self.slack
 
     def speed(self, j: int) -> Any:
-        """Largest speed from rest to rest in L; None without any limit."""
+        """Bound the speed of a joint in a motion from rest to rest in L seconds.
+
+        Parameters
+        ----------
+        j : int
+            The joint.
+
+        Returns
+        -------
+        arb [rad/s], or None
+            Upper bound; None without any limit.
+        """
         velocity, acceleration, jerk = (row[j] for row in self.limits)
         if jerk is not None:
             rising = jerk * self.L / 2
@@ -102,13 +180,24 @@ class Claim:
         return velocity
 
     def shortest(self) -> list[Any]:
-        """Lower bounds of the durations: displacement over speed."""
+        """Lower bounds of the durations, displacement over speed, length n [s]."""
         speeds = {j: self.speed(j) for j in self.moving}
         need(all(speed is not None for speed in speeds.values()), "a moving joint has no limit")
         return [most(*(abs(row[j]) / speeds[j] for j in self.moving)) for row in self.d]
 
     def row(self, raw: Any) -> tuple[Any, ...]:
-        """A row: kind, multiplier > 0, then joint, segment, sign, order, place for pieces and jumps."""
+        """Read a row.
+
+        Parameters
+        ----------
+        raw : object
+            From the file.
+
+        Returns
+        -------
+        tuple
+            Kind, multiplier > 0; then joint, segment and sign for jumps and pieces; order and place for pieces.
+        """
         raw = items(raw, 2, 7)
         kind, multiplier = raw[0], number(raw[-1])
         need(multiplier > 0, "a multiplier is not positive")

@@ -1,4 +1,4 @@
-"""What a certificate proves, in words."""
+"""Verify a certificate, whatever its family."""
 
 from __future__ import annotations
 
@@ -6,26 +6,43 @@ from typing import Any
 
 from compare.check_certificate.answers import BadInput
 from compare.check_certificate.claim import Claim
-from compare.check_certificate.every_motion import EveryMotion
-from compare.check_certificate.four_three_four import FourThreeFour
-from compare.check_certificate.quintic import Quintic
-from compare.check_certificate.relaxation import Relaxation
-from compare.check_certificate.three_five_three import ThreeFiveThree
+from compare.check_certificate.families.four_three_four import FourThreeFour
+from compare.check_certificate.families.quintic import Quintic
+from compare.check_certificate.families.relaxation import Relaxation
+from compare.check_certificate.families.three_five_three import ThreeFiveThree
+from compare.check_certificate.families.velocity_acceleration import VelocityAccelerationSum
 from compare.check_certificate.words import proof_in_words
 
 
 def verify(data: Any, *, show: bool = False) -> str:
-    """What a certificate proves, in words; show: its last sum too, if it is one of inequalities.
+    """Verify a certificate.
 
-    Raises Refused or BadInput.
+    Parameters
+    ----------
+    data : object
+        The content of the file.
+    show : bool
+        Whether to add the inequalities of the last sum, for a bound of every motion.
+
+    Returns
+    -------
+    str
+        What the certificate proves, in words.
+
+    Raises
+    ------
+    Refused
+        If the proof does not hold.
+    BadInput
+        If the data are no certificate.
     """
     claim = Claim(data)
     trees: dict[str, Any] = {
         "3-5-3": ThreeFiveThree,
         "4-3-4": FourThreeFour,
         "quintic": Quintic,
-        "b-spline-3": EveryMotion,
-        "b-spline-5": EveryMotion,
+        "b-spline-3": VelocityAccelerationSum,
+        "b-spline-5": VelocityAccelerationSum,
         "every-motion": Relaxation,
     }
     if claim.family not in trees:

@@ -1,4 +1,4 @@
-"""A proof for people: the inequalities that add up to it, each with its multiplier.
+"""A proof written for people: the inequalities that add up to it, each with its multiplier.
 
 Segments, joints and waypoints count from 1. T2 is the duration of segment 2; v5(2) and a5(2) are the
 velocity and the acceleration of joint 5 at waypoint 2.
@@ -10,7 +10,7 @@ from typing import Any
 
 from compare.check_certificate.balls import R
 from compare.check_certificate.claim import number
-from compare.check_certificate.relaxation import Relaxation, Row, Variable
+from compare.check_certificate.families.relaxation import Inequality, Relaxation, Variable
 
 KINDS = {
     "h": "the time assumed",
@@ -27,25 +27,36 @@ KINDS = {
 
 
 def proof_in_words(checker: Relaxation) -> list[str]:
-    """A line per inequality of the last sum; SI units."""
+    """Write the last sum of a proof, in SI units.
+
+    Parameters
+    ----------
+    checker : Relaxation
+        After its replay.
+
+    Returns
+    -------
+    list of str
+        A line per inequality.
+    """
     lines = []
     for raw in checker.sum:
         of = KINDS[str(raw[0])]
         if str(raw[0]) in "wvardk":
             of += f", joint {raw[1] + 1}"
-        lines.append(f"  {float(number(raw[-1])):.6g} x ({inequality(checker.row(raw))})  [{of}]")
+        lines.append(f"  {float(number(raw[-1])):.6g} x ({_inequality(checker.row(raw))})  [{of}]")
     return lines
 
 
-def inequality(row: Row) -> str:
-    """Terms that are not zero, and the right hand side."""
-    terms = [(float(x), name(key)) for key, x in row[0].items() if not bool(x == R(0))]
+def _inequality(row: Inequality) -> str:
+    """One inequality: its terms that are not zero, and its right-hand side."""
+    terms = [(float(x), _name(key)) for key, x in row[0].items() if not bool(x == R(0))]
     text = " ".join(f"{'-' if x < 0 else '+'} {abs(x):.6g} {what}" for x, what in terms)
     return f"{text.removeprefix('+ ')} <= {float(row[1]):.6g}"
 
 
-def name(key: Variable) -> str:
-    """A variable as a reader knows it."""
+def _name(key: Variable) -> str:
+    """A variable as the module's docstring names it."""
     kind, k = key[0], key[1] + 1
     if kind in ("T", "u", "q"):
         return {"T": f"T{k}", "u": f"(1/T{k})", "q": f"T{k}^2"}[kind]

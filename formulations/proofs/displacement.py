@@ -12,7 +12,7 @@ from __future__ import annotations
 import sys
 from fractions import Fraction
 from itertools import pairwise
-from math import nextafter
+from math import isfinite, nextafter
 
 import numpy as np
 
@@ -97,9 +97,12 @@ def rounded_down(value: Fraction) -> float:
 
 def _segments(problem: Problem) -> list[Fraction]:
     """Exact least duration of each segment [s]."""
-    speeds = [Fraction(speed) for speed in problem.limits.velocity.tolist()]
+    # slowness [s/rad]; 0 for a joint without a velocity limit
+    slowness = [
+        1 / Fraction(v) if isfinite(v) else Fraction(0) for v in problem.limits.velocity.tolist()
+    ]
     rows = [[Fraction(x) for x in row] for row in problem.waypoints.tolist()]
     return [
-        max(abs(end - start) / speed for start, end, speed in zip(a, b, speeds, strict=True))
+        max(abs(end - start) * s for start, end, s in zip(a, b, slowness, strict=True))
         for a, b in pairwise(rows)
     ]

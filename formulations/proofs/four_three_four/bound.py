@@ -51,8 +51,14 @@ def begin(
 
     Parameters
     ----------
-    problem, L, near, narrow, aside, blur
-        As in ``formulations.proofs.proof.Prover``; ``near`` is not used.
+    problem : Problem
+        Waypoints and limits.
+    L : float [s]
+        The bound to prove.
+    near : Array, shape (n_segments,) [s], optional
+        Is not used.
+    narrow, aside, blur : optional
+        As in ``formulations.proofs.proof.Prover``.
 
     Returns
     -------

@@ -17,7 +17,7 @@ from typing import Any
 
 import numpy as np
 
-from formulations.compiled import compiled
+from formulations.compiled import compiled, inlined
 from formulations.proofs.arithmetic.outward import (
     add,
     down,
@@ -103,7 +103,7 @@ def sum_rows(
     return const
 
 
-@compiled
+@inlined
 def _add_jump(const: float, row: Any, data: Any, box: Any, sums: Any) -> float:
     """Add a jump across an open segment; returns the new constant."""
     lam = row[MULTIPLIER] / row[SCALE]
@@ -117,7 +117,7 @@ def _add_jump(const: float, row: Any, data: Any, box: Any, sums: Any) -> float:
     return down(const - up(lam * up(data.limit[2, j] * up(1.0 / box.lo[k]))))
 
 
-@compiled
+@inlined
 def _add_piece(const: float, row: Any, data: Any, reference: Any, sums: Any) -> float:
     """Add a limit inside a piece; returns the new constant."""
     shares, limit, n = sums.shares, data.limit, data.n
@@ -151,16 +151,17 @@ def _add_piece(const: float, row: Any, data: Any, reference: Any, sums: Any) -> 
     return const
 
 
-@compiled
+@inlined
 def _choose_mu(j: int, data: Any, reference: Any, sums: Any) -> None:
     """Multipliers of the knot equations of a joint that make the v-terms at c vanish, up to rounding."""
     n, c, state, C = data.n, reference.c, reference.state, reference.C
-    extra, mu = sums.extra, sums.mu
+    extra, mu, etas = sums.extra, sums.mu, sums.eta
+    weight_lo, weight_hi = sums.weight_lo, sums.weight_hi
     for i in range(n + 1):
         extra[i] = 0.0
     for i in range(1, n):
         for side in range(2):
-            eta = sums.eta[j, i]
+            eta = etas[j, i]
             if eta != 0.0 and state[i, side] == GONE and state[i, 1 - side] == UNIT:
                 m, w, _, other = side_of(i, side, n)
                 extra[i] += w * eta * c[m]
@@ -168,39 +169,42 @@ def _choose_mu(j: int, data: Any, reference: Any, sums: Any) -> None:
     for e in range(1, n):
         y = 0.0
         for i in range(1, n):
-            y -= (0.5 * (sums.weight_lo[j, i] + sums.weight_hi[j, i]) + extra[i]) * C[i, e]
+            y -= (0.5 * (weight_lo[j, i] + weight_hi[j, i]) + extra[i]) * C[i, e]
         dropped = state[e, 0] == GONE and state[e, 1] == GONE
         mu[e] = 0.0 if dropped else y
 
 
-@compiled
+@inlined
 def _add_knots(
     const: float, j: int, data: Any, box: Any, reference: Any, velocities: Any, sums: Any
 ) -> float:
     """Add the knot equations of a joint, and all terms in its velocities; returns the new constant."""
     n, c, state, shares, mu = data.n, reference.c, reference.state, sums.shares, sums.mu
     factor_lo, factor_hi, cross = sums.factor_lo, sums.factor_hi, sums.cross
+    d_lo, d_hi, eta, ce = data.d_lo, data.d_hi, sums.eta, reference.ce
+    V_lo, V_hi = velocities.lo, velocities.hi
+    stray_lo, stray_hi = velocities.stray_lo, velocities.stray_hi
     for m in range(n):
         for side in range(2):
             factor_lo[m, side] = factor_hi[m, side] = cross[m, side] = 0.0
     _choose_mu(j, data, reference, sums)
     strays(j, data, box, state, velocities)
     for e in range(1, n):
-        const = down(const + scale(mu[e], velocities.stray_lo[e], velocities.stray_hi[e])[0])
+        const = down(const + scale(mu[e], stray_lo[e], stray_hi[e])[0])
     rest_lo, rest_hi = sums.weight_lo[j], sums.weight_hi[j]
     for i in range(1, n):
         for side in range(2):
-            weight, centre = mu[i], reference.ce[i, side]
+            weight, centre = mu[i], ce[i, side]
             if state[i, side] == GONE:
-                if sums.eta[j, i] == 0.0 or state[i, 1 - side] != UNIT:
+                if eta[j, i] == 0.0 or state[i, 1 - side] != UNIT:
                     continue
-                weight, centre = sums.eta[j, i], c[i - 1 + side]
+                weight, centre = eta[j, i], c[i - 1 + side]
             m, w, p, other = side_of(i, side, n)
             f_lo, f_hi = scale(weight, w, w)  # factor of x_m v_i (of v_i if UNIT)
             g = 2.0 * weight  # and of v_other
             if state[i, side] != UNIT:
                 # - mu p d x^2, and x v = c v + (x - c) v with v in its enclosure
-                a_lo, a_hi = scale(weight, down(p * data.d_lo[m, j]), up(p * data.d_hi[m, j]))
+                a_lo, a_hi = scale(weight, down(p * d_lo[m, j]), up(p * d_hi[m, j]))
                 shares[m, 2] = down(shares[m, 2] - a_hi)
                 factor_lo[m, side], factor_hi[m, side] = f_lo, f_hi
                 cross[m, side] = g
@@ -211,12 +215,12 @@ def _add_knots(
                 rest_lo[other], rest_hi[other] = add(rest_lo[other], rest_hi[other], a_lo, a_hi)
     _add_bilinear(j, data, box, velocities, sums)
     for i in range(1, n):  # the v-terms at x = c: nearly zero by the choice of mu
-        lo, hi = multiply(rest_lo[i], rest_hi[i], velocities.lo[j, i], velocities.hi[j, i])
-        const = down(const + lo)
+        least = multiply(rest_lo[i], rest_hi[i], V_lo[j, i], V_hi[j, i])[0]
+        const = down(const + least)
     return const
 
 
-@compiled
+@inlined
 def _add_bilinear(j: int, data: Any, box: Any, velocities: Any, sums: Any) -> None:
     """Add (x_m - c_m) times its v-terms: from the equation of its right knot (its side 0) and of its
     left one (side 1).

@@ -9,7 +9,7 @@ from typing import Any
 
 import numpy as np
 
-from formulations.compiled import compiled
+from formulations.compiled import compiled, inlined
 from formulations.proofs.arithmetic.outward import add, down, scale, up
 from formulations.proofs.four_three_four.data import GONE, UNIT, VARIES, side_of, weights
 
@@ -38,7 +38,7 @@ def place_reference(reference: Any, box: Any, data: Any) -> None:
     _velocities(reference, data)
 
 
-@compiled
+@inlined
 def _coefficients(reference: Any, n: int) -> None:
     """Coefficient at the reference of the segments before and after each knot, and their state.
 
@@ -61,7 +61,7 @@ def _coefficients(reference: Any, n: int) -> None:
             state[i, 0], state[i, 1] = GONE, UNIT
 
 
-@compiled
+@inlined
 def _inverse(ce: Any, n: int, out: Any) -> None:
     """Approximate inverse of A(c), (n+1, n+1) with zero borders (Gauss-Jordan, diagonally dominant)."""
     a = np.zeros((n + 1, n + 1))
@@ -92,7 +92,7 @@ def _inverse(ce: Any, n: int, out: Any) -> None:
                     out[i, k] -= f * out[p, k]
 
 
-@compiled
+@inlined
 def _inverse_rest(ce: Any, C: Any, n: int, out: Any) -> None:
     """Upper bounds of |I - C A(c)|, (n+1, n+1)."""
     for i in range(1, n):
@@ -112,7 +112,7 @@ def _inverse_rest(ce: Any, C: Any, n: int, out: Any) -> None:
             out[i, e] = max(abs(lo), abs(hi))
 
 
-@compiled
+@inlined
 def _velocities(reference: Any, data: Any) -> None:
     """Approximate v_c = C b(c), (dof, n+1)."""
     n, d, ce, C, v = data.n, data.d, reference.ce, reference.C, reference.vc

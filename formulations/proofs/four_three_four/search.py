@@ -6,7 +6,7 @@ from typing import Any
 
 import numpy as np
 
-from formulations.compiled import compiled
+from formulations.compiled import compiled, inlined
 from formulations.proofs.arithmetic.outward import down, up
 from formulations.proofs.conditions import MARGIN, MULTIPLIER
 from formulations.proofs.events import (
@@ -44,7 +44,7 @@ _TURNS = 6  # rounds of cuts on one box before it is split
 _SWEEPS = 2  # of the enclosure of the velocities per round
 
 
-@compiled
+@inlined
 def _cut_by_total(box: Any, data: Any) -> bool:
     """Cut the box by T_k = L - the others, twice; returns False if nothing is left."""
     lo, hi, n, L = box.lo, box.hi, data.n, data.L
@@ -65,7 +65,7 @@ def _cut_by_total(box: Any, data: Any) -> bool:
     return True
 
 
-@compiled
+@inlined
 def _narrowed(box: Any, data: Any, reference: Any, velocities: Any, trace: Any, few: Any) -> bool:
     """Cut the box by the total, enclose the velocities on it; returns False if nothing is left."""
     left = _cut_by_total(box, data)
@@ -97,7 +97,7 @@ def _single_row(k: int, side: int, count: int, form: Any) -> tuple[int, float]:
     return best, max(-1.0, where)
 
 
-@compiled
+@inlined
 def _choose_rows(form: Any, count: int, n: int) -> int:
     """Put the rows with the multipliers of the linear program into ``few``; returns their number."""
     few, lam = form.few, form.multipliers
@@ -111,7 +111,7 @@ def _choose_rows(form: Any, count: int, n: int) -> int:
     return kept
 
 
-@compiled
+@inlined
 def _cut_slabs(
     const: float, target: Any, kept: int, form: Any, sums: Any, box: Any, reference: Any, trace: Any
 ) -> tuple[bool, bool]:
@@ -156,7 +156,7 @@ def _cut_slabs(
     return gone, cut
 
 
-@compiled
+@inlined
 def _try_discards(
     form: Any, count: int, data: Any, box: Any, reference: Any, velocities: Any, sums: Any, trace: Any
 ) -> tuple[bool, bool]:
@@ -196,7 +196,7 @@ def _try_discards(
     return False, cut
 
 
-@compiled
+@inlined
 def _reduced_to_nothing(
     box: Any, data: Any, reference: Any, velocities: Any, form: Any, sums: Any, trace: Any
 ) -> bool:

@@ -19,7 +19,7 @@ from typing import Any
 
 import numpy as np
 
-from formulations.compiled import compiled
+from formulations.compiled import compiled, inlined
 from formulations.proofs.arithmetic.outward import add, down, multiply, scale, up
 from formulations.proofs.four_three_four.data import GONE, UNIT, VARIES, side_of, weights
 
@@ -43,41 +43,40 @@ def strays(j: int, data: Any, box: Any, state: Any, velocities: Any) -> None:
     velocities : VelocityEnclosure
         Its strays are filled.
     """
-    n, lo, hi = data.n, box.lo, box.hi
+    n, lo, hi, d_lo, d_hi = data.n, box.lo, box.hi, data.d_lo, data.d_hi
+    V_lo, V_hi = velocities.lo, velocities.hi
+    stray_lo, stray_hi = velocities.stray_lo, velocities.stray_hi
     for i in range(1, n):
-        velocities.stray_lo[i] = velocities.stray_hi[i] = 0.0
+        stray_lo[i] = stray_hi[i] = 0.0
         for side in range(2):
             if state[i, side] != GONE or state[i, 1 - side] != UNIT:
                 continue
             m, w, p, other = side_of(i, side, n)
             opened = i - side
-            a_lo, a_hi = scale(w, velocities.lo[j, i], velocities.hi[j, i])
-            a_lo, a_hi = add(a_lo, a_hi, 2.0 * velocities.lo[j, other], 2.0 * velocities.hi[j, other])
-            b_lo, b_hi = multiply(lo[m], hi[m], data.d_lo[m, j], data.d_hi[m, j])
+            a_lo, a_hi = scale(w, V_lo[j, i], V_hi[j, i])
+            a_lo, a_hi = add(a_lo, a_hi, 2.0 * V_lo[j, other], 2.0 * V_hi[j, other])
+            b_lo, b_hi = multiply(lo[m], hi[m], d_lo[m, j], d_hi[m, j])
             b_lo, b_hi = scale(-p, b_lo, b_hi)
             a_lo, a_hi = add(a_lo, a_hi, b_lo, b_hi)
             a_lo, a_hi = multiply(a_lo, a_hi, lo[m], hi[m])
-            velocities.stray_lo[i], velocities.stray_hi[i] = multiply(
-                a_lo, a_hi, 0.0, up(1.0 / lo[opened])
-            )
+            stray_lo[i], stray_hi[i] = multiply(a_lo, a_hi, 0.0, up(1.0 / lo[opened]))
 
 
-@compiled
+@inlined
 def _residuals(j: int, data: Any, reference: Any, velocities: Any, y_lo: Any, y_hi: Any) -> None:
     """Add C (b(c) - A(c) v_c - strays) to y, and the strays to the remainder."""
     n, C, vc, ce = data.n, reference.C, reference.vc, reference.ce
-    stray_lo, stray_hi = velocities.stray_lo, velocities.stray_hi
+    stray_lo, stray_hi, R = velocities.stray_lo, velocities.stray_hi, velocities.remainder
+    d_lo, d_hi = data.d_lo, data.d_hi
     for e in range(1, n):
         p, q = -stray_hi[e], -stray_lo[e]
         if stray_hi[e] > stray_lo[e]:
             for i in range(1, n):
-                velocities.remainder[j, i] += abs(C[i, e]) * max(abs(p), abs(q))
+                R[j, i] += abs(C[i, e]) * max(abs(p), abs(q))
         for side in range(2):
             m, w, f, at = side_of(e, side, n)
             other = vc[j, at]
-            s_lo, s_hi = multiply(
-                down(f * data.d_lo[m, j]), up(f * data.d_hi[m, j]), ce[e, side], ce[e, side]
-            )
+            s_lo, s_hi = multiply(down(f * d_lo[m, j]), up(f * d_hi[m, j]), ce[e, side], ce[e, side])
             t = w * vc[j, e]
             e_lo, e_hi = add(down(t), up(t), 2.0 * other, 2.0 * other)
             s_lo, s_hi = add(s_lo, s_hi, -e_hi, -e_lo)
@@ -88,10 +87,10 @@ def _residuals(j: int, data: Any, reference: Any, velocities: Any, y_lo: Any, y_
             y_lo[i], y_hi[i] = add(y_lo[i], y_hi[i], s_lo, s_hi)
 
 
-@compiled
+@inlined
 def _slopes(j: int, data: Any, box: Any, reference: Any, velocities: Any, y_lo: Any, y_hi: Any) -> None:
     """Add C times the sum of (x_m - c_m) slopes to y; fill the floating-point slopes and remainders."""
-    n, lo, hi, d = data.n, box.lo, box.hi, data.d
+    n, lo, hi, d, d_lo, d_hi = data.n, box.lo, box.hi, data.d, data.d_lo, data.d_hi
     c, C, vc, state = reference.c, reference.C, reference.vc, reference.state
     V_lo, V_hi, G, R = velocities.lo, velocities.hi, velocities.slopes, velocities.remainder
     for m in range(n):
@@ -103,7 +102,7 @@ def _slopes(j: int, data: Any, box: Any, reference: Any, velocities: Any, y_lo: 
         e_lo, e_hi = down(lo[m] - c[m]), up(hi[m] - c[m])
         half = max(-e_lo, e_hi)
         x_lo, x_hi = down(c[m] + lo[m]), up(c[m] + hi[m])
-        x_lo, x_hi = multiply(x_lo, x_hi, data.d_lo[m, j], data.d_hi[m, j])
+        x_lo, x_hi = multiply(x_lo, x_hi, d_lo[m, j], d_hi[m, j])
         a_lo = a_hi = b_lo = b_hi = a = b = 0.0
         if m > 0 and state[m, 1] == VARIES:
             a_lo = down(down(pr * x_lo) - up(up(wr * V_hi[j, m]) + 2.0 * V_hi[j, m + 1]))
@@ -146,15 +145,16 @@ def enclose(j: int, data: Any, box: Any, reference: Any, velocities: Any) -> boo
     bool
         False if no velocity is left: the box holds no feasible motion.
     """
-    n, vc, V_lo, V_hi = data.n, reference.vc, velocities.lo, velocities.hi
+    n, vc, rest, R = data.n, reference.vc, reference.rest, velocities.remainder
+    V_lo, V_hi = velocities.lo, velocities.hi
     y_lo, y_hi = np.zeros(n + 1), np.zeros(n + 1)
     for i in range(1, n):
         s = 0.0  # (I - C A(c)) (v - v_c)
         for e in range(1, n):
             y = max(abs(up(V_hi[j, e] - vc[j, e])), abs(down(V_lo[j, e] - vc[j, e])))
-            s = up(s + up(reference.rest[i, e] * y))
+            s = up(s + up(rest[i, e] * y))
         y_lo[i], y_hi[i] = -s, s
-        velocities.remainder[j, i] = 0.0
+        R[j, i] = 0.0
     strays(j, data, box, reference.state, velocities)
     _residuals(j, data, reference, velocities, y_lo, y_hi)
     _slopes(j, data, box, reference, velocities, y_lo, y_hi)

@@ -62,7 +62,13 @@ def begin(
 
     Parameters
     ----------
-    problem, L, near, narrow, aside, blur
+    problem : Problem
+        Waypoints and limits.
+    L : float [s]
+        The bound to prove.
+    near : Array, shape (n_segments,) [s], optional
+        Hint: the best durations known.
+    narrow, aside, blur : optional
         As in ``formulations.proofs.proof.Prover``.
 
     Returns

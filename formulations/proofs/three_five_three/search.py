@@ -6,7 +6,7 @@ from typing import Any
 
 import numpy as np
 
-from formulations.compiled import compiled
+from formulations.compiled import compiled, inlined
 from formulations.proofs.conditions import MARGIN, MULTIPLIER, WIDTH
 from formulations.proofs.events import (
     ASIDE,
@@ -35,7 +35,7 @@ _TURNS = 8  # rounds of cuts on one box before it is split
 _EVENTS_PER_BOX = 4 * _TURNS + 2
 
 
-@compiled
+@inlined
 def _discards(form: Any, n: int, few: Any, box: Any, data: Any) -> int:
     """Number of rows, in ``few``, whose Lagrangian is positive on the box; 0 if none was found."""
     rows, a, g, lam = form.rows, form.a, form.g, form.multipliers
@@ -78,7 +78,7 @@ def _slab(form: Any, n: int, x: int, side: int) -> tuple[int, float]:
     return best, where
 
 
-@compiled
+@inlined
 def _cut_slabs(form: Any, n: int, few: Any, box: Any, data: Any, trace: Any) -> bool:
     """Cut off slabs of the box that single rows discard; returns whether any was."""
     lo, hi = box
@@ -114,7 +114,7 @@ def _cut_slabs(form: Any, n: int, few: Any, box: Any, data: Any, trace: Any) -> 
     return cut
 
 
-@compiled
+@inlined
 def _reduced_to_nothing(form: Any, few: Any, box: Any, data: Any, work: Any, trace: Any) -> bool:
     """Discard the box, or cut slabs off it as long as that helps; returns whether nothing is left."""
     lo, hi = box

@@ -37,12 +37,11 @@ def test_a_trust_region_below_the_least_duration_keeps_its_bounds_in_order(
     assert (np.abs(np.log(solved / centre)) <= radius * (1.0 + 1e-6) + 1e-6).all()
 
 
-@pytest.mark.parametrize("guess", [[1e-300] * 4, [1e300] * 4])
-def test_a_start_that_leaves_the_range_of_floats_is_a_status(guess: list[float]) -> None:
-    found = local_optimum(STILL, np.array(guess))
+def test_a_start_that_leaves_the_range_of_floats_is_a_status() -> None:
+    found = local_optimum(STILL, np.full(4, 1e-300))
     assert found.status == StartStatus.NOT_FINITE
     assert found.reason
-    assert found.seconds == np.inf or np.isfinite(found.durations).all()
+    assert found.seconds == np.inf
 
 
 @pytest.mark.parametrize(

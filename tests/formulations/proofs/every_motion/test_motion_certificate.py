@@ -25,7 +25,7 @@ from every_motion_helpers import (
 from compare.check_certificate.__main__ import BAD_INPUT, CERTIFIED, REFUSED, main
 from compare.check_certificate.answers import Refused
 from compare.check_certificate.claim import Claim
-from compare.check_certificate.relaxation import Relaxation
+from compare.check_certificate.families.relaxation import Relaxation
 from compare.studies.free_form_study import random_problems
 from formulations import (
     CASES,

@@ -1,8 +1,8 @@
-"""Every motion through the waypoints: a linear relaxation, its rows built anew, any multipliers.
+"""Every motion through the waypoints: a linear relaxation, whose inequalities are built anew.
 
-No motion of at most H seconds takes L or less. Segment k of T seconds, u = 1 / T, q = T^2; velocity v
-and acceleration a at waypoints, W = T a at both ends of a segment. All motions obey, for any places
-named in a row (s1 .. s6 ascending in [0, 1]) and while T is in [l, h], a in [e, f]:
+The claim: no motion of at most H seconds takes L or less. Segment k takes T seconds, u = 1 / T, q = T^2;
+velocity v and acceleration a are those at waypoints, W = T a at both ends of a segment. All motions
+obey, for any places named in a row (s1 .. s6 ascending in [0, 1]) and while T is in [l, h], a in [e, f]:
 
     h   sum T <= H                              s   u <= 1 / l + 1 / h - T / (l h)
     t   u >= 2 / t - T / t^2                    c   q <= (h + 2 t) T + h t^2 u - 2 h t - t^2
@@ -11,8 +11,8 @@ named in a row (s1 .. s6 ascending in [0, 1]) and while T is in [l, h], a in [e,
     r   s2 v0 + p W0 <= r u + (s2 - s1)^2 / 2 A T + g J q,     p = s1 s2 - s1^2 / 2, r room to a limit
     d   d u <= z v0 + p W0 + (1 - y) v1 - o W1 + (y - z) V + m A T + g J q
 
-with the p, g, z, y, o, m of ``distance``. For multipliers >= 0 the cost, plus the rows' weighted sum, is
-linear in bounded variables: its least value is a lower bound of the cost.
+with the p, g, z, y, o, m of ``_distance``. For multipliers >= 0, the cost plus the weighted sum of the
+rows is linear in bounded variables: its least value is a lower bound of the cost.
 """
 
 from __future__ import annotations
@@ -27,13 +27,13 @@ from compare.check_certificate.claim import Claim, index, items, number
 MOST_ROWS = 1_000_000
 WIDTHS = {"h": 2, "s": 3, "t": 4, "c": 4, "w": 6, "v": 7, "a": 7, "r": 8, "d": 11, "k": 11}
 Variable = tuple[Any, ...]
-Row = tuple[dict[Variable, Any], Any]
+Inequality = tuple[dict[Variable, Any], Any]
 
 
 class Relaxation:
-    """Boxes of durations and accelerations, narrowed event by event; limits that every motion keeps.
+    """Boxes of durations and accelerations, which the events narrow, and limits that every motion keeps.
 
-    sum: rows of the last sum, which ends the proof. From rest to rest in H,
+    sum: the rows of the last sum, which ends the proof. From rest to rest in H,
     |v| <= min(V, A H / 2, J H^2 / 16), |a| <= min(A, sqrt(2 J V), J H / 4).
     """
 
@@ -46,11 +46,11 @@ class Relaxation:
         self.A: dict[int, Any] = {}
         self.J: dict[int, Any] = {}
         for j in self.joints:
-            self.V[j], self.A[j], self.J[j] = self.limits(j)
-        shortest = {k: self.shortest(k) for k in self.ks}
+            self.V[j], self.A[j], self.J[j] = self._limits(j)
+        shortest = {k: self._shortest(k) for k in self.ks}
         total = sum(shortest.values(), R(0))
         self.void = bool(total > self.H)
-        # a waypoint goes by the segment that it begins; at both ends the arm is at rest
+        # a waypoint has the number of the segment that begins there; the arm rests at both ends
         self.after = dict(zip(self.ks, [*self.ks[1:], self.ks[-1] + 1], strict=True))
         self.ends = (self.ks[0], self.ks[-1] + 1)
         self.sum: list[Any] = []
@@ -63,8 +63,8 @@ class Relaxation:
                 a = self.A[j].upper() if free else R(0)
                 self.boxes["a", i, j] = (-a, a)
 
-    def limits(self, j: int) -> tuple[Any, Any, Any]:
-        """Of velocity and acceleration, as far as H allows; of jerk, None without one."""
+    def _limits(self, j: int) -> tuple[Any, Any, Any]:
+        """Limits on velocity and acceleration that follow from H too, and on jerk (None without one)."""
         V, A, J = (row[j] for row in self.claim.limits)
         tops = [] if V is None else [V]
         steep = [] if A is None else [A]
@@ -77,8 +77,8 @@ class Relaxation:
                 steep.append((2 * J * V).sqrt())
         return least(*tops), least(*steep), J
 
-    def shortest(self, k: int) -> Any:
-        """Displacement over top speed."""
+    def _shortest(self, k: int) -> Any:
+        """Lower bound of a duration: displacement over top speed."""
         best = R(0)
         for j in self.claim.moving:
             V = self.V.get(j, self.claim.limits[0][j])
@@ -99,7 +99,7 @@ class Relaxation:
             count += len(rows)
             self.sum = rows
             if letter == "N":
-                key, side = self.narrowed(event)
+                key, side = self._narrowed(event)
                 bound = self.least({key: R(-1 if side else 1)}, rows)
                 need(bound.is_finite(), f"{where}: the box is not narrowed")
                 lo, hi = pending[key]
@@ -119,24 +119,37 @@ class Relaxation:
                 raise BadInput(f"{where}: unknown event {letter!r:.20}")
         raise Refused("the events end before the bound")
 
-    def narrowed(self, event: list[Any]) -> tuple[Variable, int]:
+    def _narrowed(self, event: list[Any]) -> tuple[Variable, int]:
         """The variable that an event narrows, and from which side."""
         if event[1] == "T" and len(event) == 5:
-            return ("T", self.segment(event[2])), index(event[3], 2)
+            return ("T", self._segment(event[2])), index(event[3], 2)
         if event[1] == "a" and len(event) == 6:
             i, j = index(event[2], self.claim.n + 1), index(event[3], self.claim.dof)
             need(("a", i, j) in self.boxes, "an event is about a waypoint or joint without a box")
             return ("a", i, j), index(event[4], 2)
         raise BadInput(f"unknown event {event!r:.60}")
 
-    def segment(self, value: Any) -> int:
+    def _segment(self, value: Any) -> int:
         """A segment on which something moves."""
         k = index(value, self.claim.n)
         need(("T", k) in self.boxes, f"a row is about segment {k + 1}, on which nothing moves")
         return k
 
     def least(self, cost: dict[Variable, Any], rows: list[Any]) -> Any:
-        """A lower bound of the cost over the boxes."""
+        """Bound a linear cost from below over the boxes.
+
+        Parameters
+        ----------
+        cost : dict
+            Coefficients by variable.
+        rows : list
+            Rows with their multipliers, from the file.
+
+        Returns
+        -------
+        arb
+            The bound.
+        """
         total, factors = R(0), dict(cost)
         for raw in rows:
             raw = items(raw, 2, 11)
@@ -154,7 +167,18 @@ class Relaxation:
         return total
 
     def box(self, key: Variable) -> tuple[Any, Any]:
-        """Where a variable lies."""
+        """Find the interval of a variable.
+
+        Parameters
+        ----------
+        key : tuple
+            The variable: its kind, then segment or waypoint, joint, end.
+
+        Returns
+        -------
+        tuple of two arb
+            Its ends.
+        """
         kind, k = key[0], key[1]
         if kind in ("T", "a"):
             return self.boxes[key]
@@ -170,35 +194,46 @@ class Relaxation:
         reach = most(abs(lo), abs(hi)) * self.boxes["T", k][1]
         return -reach, reach
 
-    def row(self, raw: list[Any]) -> Row:
-        """Coefficients by variable, and the right hand side."""
+    def row(self, raw: list[Any]) -> Inequality:
+        """Build an inequality anew.
+
+        Parameters
+        ----------
+        raw : list
+            Its kind, where it is posed and its multiplier, from the file.
+
+        Returns
+        -------
+        Inequality
+            Coefficients by variable, and the right-hand side.
+        """
         kind = str(raw[0])
         if WIDTHS.get(kind) != len(raw):
             raise BadInput(f"unknown row {raw!r:.60}")
         if kind == "h":
             return {("T", k): R(1) for k in self.ks}, self.H
         if kind in ("s", "t", "c"):
-            return self.of_duration(kind, self.segment(raw[1]), raw)
-        j, k = index(raw[1], self.claim.dof), self.segment(raw[2])
+            return self._of_duration(kind, self._segment(raw[1]), raw)
+        j, k = index(raw[1], self.claim.dof), self._segment(raw[2])
         need(j in self.J, f"a row is about joint {j + 1}, which has no box")
         if kind == "w":
-            return self.product(j, k, index(raw[3], 2), index(raw[4], 4))
+            return self._product(j, k, index(raw[3], 2), index(raw[4], 4))
         signs = raw[4] if kind in "vr" else raw[3]
         if type(signs) is not int or signs not in (-1, 1):
             raise BadInput(f"a sign is {signs!r:.40}")
         if kind == "v":
-            return self.peak(j, k, index(raw[3], 2), signs, number(raw[5]))
+            return self._peak(j, k, index(raw[3], 2), signs, number(raw[5]))
         places = [number(x) for x in raw[5 if kind == "r" else 4 : -1]]
         used = [places[i] for i in (0, 1, 4, 5)] if kind == "k" else places
         ascending = all(x <= y for x, y in pairwise([R(0), *used, R(1)]))
         need(ascending, "places are not ascending in [0, 1]")
         if kind == "r":
-            return self.stop(j, k, index(raw[3], 2), signs, *places)
+            return self._stop(j, k, index(raw[3], 2), signs, *places)
         if kind == "a":
-            return self.speed(j, k, signs, *places)
-        return self.distance(j, k, signs, places, kind == "d")
+            return self._speed(j, k, signs, *places)
+        return self._distance(j, k, signs, places, kind == "d")
 
-    def of_duration(self, kind: str, k: int, raw: list[Any]) -> Row:
+    def _of_duration(self, kind: str, k: int, raw: list[Any]) -> Inequality:
         """Rows s, t and c."""
         T, u, q = ("T", k), ("u", k), ("q", k)
         low, high = self.boxes["T", k]
@@ -210,50 +245,50 @@ class Relaxation:
             return {T: -1 / (t * t), u: R(-1)}, -2 / t
         return {q: R(1), T: -(high + 2 * t), u: -high * t * t}, -(2 * high * t + t * t)
 
-    def product(self, j: int, k: int, end: int, corner: int) -> Row:
+    def _product(self, j: int, k: int, end: int, corner: int) -> Inequality:
         """Row w: W - t a - e T + t e is not negative at corners 0, 1, not positive at 2, 3."""
         i = self.after[k] if end else k
         t, e = self.boxes["T", k][corner % 2], self.boxes["a", i, j][corner in (1, 2)]
         side = 1 if corner < 2 else -1
         return {("W", k, j, end): R(-side), ("a", i, j): side * t, ("T", k): side * e}, side * t * e
 
-    def peak(self, j: int, k: int, end: int, sign: int, c: Any) -> Row:
+    def _peak(self, j: int, k: int, end: int, sign: int, c: Any) -> Inequality:
         """Row v."""
         J, i = self.J[j], self.after[k] if end else k
         need(J is not None, "a row needs a jerk limit where there is none")
         return {("v", i, j): R(sign), ("W", k, j, end): c / J, ("q", k): -c * c / (2 * J)}, self.V[j]
 
-    def moving(self, j: int, k: int, jerk: Any, steep: Any) -> dict[Variable, Any]:
-        """- m A T - g J q; without a jerk limit g has to vanish."""
+    def _moving(self, j: int, k: int, jerk: Any, steep: Any) -> dict[Variable, Any]:
+        """The terms - m A T - g J q; without a jerk limit g must be 0."""
         J = self.J[j]
         need(J is not None or jerk == 0, "a row needs a jerk limit where there is none")
         return {("T", k): -steep * self.A[j], ("q", k): R(0) if J is None else -jerk * J}
 
-    def speed(self, j: int, k: int, sign: int, s1: Any, s2: Any) -> Row:
+    def _speed(self, j: int, k: int, sign: int, s1: Any, s2: Any) -> Inequality:
         """Row a."""
         i, e2 = self.after[k], 1 - s2
-        row = self.moving(j, k, (s1 * s1 + e2 * e2) / 2, s2 - s1)
+        row = self._moving(j, k, (s1 * s1 + e2 * e2) / 2, s2 - s1)
         row |= {("v", i, j): R(sign), ("v", k, j): R(-sign)}
         return row | {("W", k, j, 0): -sign * s1, ("W", k, j, 1): -sign * e2}, R(0)
 
-    def stop(self, j: int, k: int, end: int, sign: int, s1: Any, s2: Any) -> Row:
-        """Row r; at the end of a segment with time turned, and a joint that comes from where it would go."""
+    def _stop(self, j: int, k: int, end: int, sign: int, s1: Any, s2: Any) -> Inequality:
+        """Row r; at the end of a segment with time reversed, towards the side that the joint comes from."""
         i = self.after[k] if end else k
-        row = self.moving(j, k, s1 * s1 * s2 / 2 - s1**3 / 3, (s2 - s1) ** 2 / 2)
+        row = self._moving(j, k, s1 * s1 * s2 / 2 - s1**3 / 3, (s2 - s1) ** 2 / 2)
         towards = -sign if end else sign
         row[("u", k)] = -self.claim.room(i, j, towards)
         p = s1 * s2 - s1 * s1 / 2
         return row | {("v", i, j): sign * s2, ("W", k, j, end): (-sign if end else sign) * p}, R(0)
 
-    def distance(self, j: int, k: int, sign: int, s: list[Any], cruises: bool) -> Row:
-        """Row d; without top speed the pieces of jerk -J are one, [s2, s5], and z = y its middle."""
+    def _distance(self, j: int, k: int, sign: int, s: list[Any], cruises: bool) -> Inequality:
+        """Row d, or k without a piece at top speed: there the pieces of jerk -J are one, z = y its middle."""
         s1, s2, s3, s4, s5, s6 = s if cruises else [s[0], s[1], s[4], s[1], s[4], s[5]]
         z, y = (s2 + s3) / 2, (s4 + s5) / 2
         turn = ((s3 - s2) ** 3 + (s5 - s4) ** 3) / 12 if cruises else (s5 - s2) ** 3 / 12
         o, e6 = (1 - y) * (1 - s6) - (1 - s6) ** 2 / 2, 1 - s6
         m = (s2 - s1) * (s3 - s1) / 2 + (s6 - s5) * (s6 - s4) / 2
         g = z * s1 * s1 / 2 - s1**3 / 3 + (1 - y) * e6 * e6 / 2 - e6**3 / 3 + turn
-        row = self.moving(j, k, g, m)
+        row = self._moving(j, k, g, m)
         i, d = self.after[k], self.claim.d[k][j]
         row |= {("u", k): sign * d, ("v", k, j): -sign * z, ("v", i, j): -sign * (1 - y)}
         row |= {("W", k, j, 0): -sign * (z * s1 - s1 * s1 / 2), ("W", k, j, 1): sign * o}

@@ -16,13 +16,16 @@ from compare.check_certificate.balls import (
     times,
 )
 from compare.check_certificate.claim import MOST_EVENTS, Claim, index, items, number
-from compare.check_certificate.tree import Node, Tree
+from compare.check_certificate.families.tree import Node, Tree
 
 
 class ThreeFiveThree(Tree):
-    """Variables r = T2/T1, q = T2/T3; T = T2 = L / (1 + 1/r + 1/q). None where nothing moves."""
+    """Variables r = T2/T1, q = T2/T3; T = T2 = L / (1 + 1/r + 1/q).
 
-    MIDDLE = (  # what d2, d1 r, d1 r^2, d3 q, d3 q^2 bring to the middle piece
+    A variable is fixed to 1 and dropped where nothing moves on its end segment.
+    """
+
+    MIDDLE = (  # what multiplies d2, d1 r, d1 r^2, d3 q, d3 q^2 in the middle piece
         [0, 0, 0, 10, -15, 6],
         [0, 3, 0, -18, 24, -9],
         [0, 0, 3, -9, 9, -3],
@@ -35,10 +38,10 @@ class ThreeFiveThree(Tree):
         need(claim.n == 3, "3-5-3 has three segments")
         t = claim.shortest()
         self.has = [not all(x == 0 for x in claim.d[k]) for k in (0, 2)]
-        self.t = t = [self.end(0), t[1], self.end(2)]
+        self.t = t = [self._end(0), t[1], self._end(2)]
         self.void = sum(t, R(0)) > claim.L
         if not self.void and all(x == 0 for x in claim.d[1]):
-            t[1] = self.no_short_middle()
+            t[1] = self._no_short_middle()
         box = []
         for x in range(2):
             end, other = t[2 * x], t[2 - 2 * x]
@@ -50,12 +53,13 @@ class ThreeFiveThree(Tree):
             box.append([ends[0].lower(), ends[1].upper()])
         self.root = Node(box)
 
-    def no_short_middle(self) -> Any:
-        """Verify that T2 <= tau is impossible where nothing moves on the middle segment; tau.
+    def _no_short_middle(self) -> Any:
+        """Verify that T2 <= tau is impossible where nothing moves on the middle segment; returns tau.
 
         Derivative k >= 1 of the middle piece times T2^(k-1) is d1/T1 (B + C r) + d3/T3 (E + F q), r in
-        [0, tau/T1], q in [0, tau/T3], against at most limit tau^(k-1). An end on which nothing moves
-        is left out, the rest stretched to L: T1 = 0 if it is the first, T1 in [L - tau, L] if the last.
+        [0, tau/T1], q in [0, tau/T3]; a limit allows it at most limit tau^(k-1). An end segment on which
+        nothing moves is left out and the rest is stretched to L: T1 = 0 if that is the first segment,
+        T1 in [L - tau, L] if it is the last.
         """
         claim, d = self.claim, self.claim.d
         if not isinstance(claim.short, dict):
@@ -98,8 +102,8 @@ class ThreeFiveThree(Tree):
         need(not reached > least_end, "short: the intervals of T1 leave a gap")
         return tau
 
-    def end(self, k: int) -> Any:
-        """A lower bound of a cube's duration: T^i limit_i >= 3|d|, 6|d|, 6|d| for i = 1, 2, 3."""
+    def _end(self, k: int) -> Any:
+        """Lower bound of a cubic's duration: T^i limit_i >= 3|d|, 6|d|, 6|d| for i = 1, 2, 3."""
         best = R(0)
         for j in self.claim.moving:
             for order, factor in ((1, 3), (2, 6), (3, 6)):
@@ -108,8 +112,8 @@ class ThreeFiveThree(Tree):
                     best = most(best, (factor * abs(self.claim.d[k][j]) / limit).root(order))
         return best
 
-    def excess(self, rows: Any, node: Node, box: list[list[Any]]) -> Any:
-        """Const + two quadratics with nu / x + a concave function of T, least at an end of it."""
+    def _excess(self, rows: Any, node: Node, box: list[list[Any]]) -> Any:
+        """A constant, two quadratics with nu / x, and a concave function of T, least at an end of T."""
         claim, d = self.claim, self.claim.d
         const, nu, first, second, w = R(0), R(0), [R(0)] * 2, [R(0)] * 2, [R(0)] * 4
         for kind, m, *rest in rows:

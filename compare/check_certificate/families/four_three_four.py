@@ -18,19 +18,19 @@ from compare.check_certificate.balls import (
     times,
 )
 from compare.check_certificate.claim import Claim
-from compare.check_certificate.tree import Node, Tree
+from compare.check_certificate.families.tree import Node, Tree
 
 
 class FourThreeFour(Tree):
     """Variables x_k = 1/T_k; velocities v at the inner waypoints, enclosed per joint.
 
-    A(x) v = b(x), each knot's row the sum of a share per side: x_m (w v_i + 2 v_other - p d_m x_m), m
-    the segment there; w, p = 4, 6, at the end pieces 6, 12. A segment without upper end of x is open
-    (nothing moves on it): the rows of its knots are divided by its x, the other side's share becomes a
-    stray interval.
+    A(x) v = b(x): the equation of each knot is the sum of a share per side, x_m (w v_i + 2 v_other -
+    p d_m x_m), where m is the segment there; w, p = 4, 6, and 6, 12 at the end pieces. A segment without
+    upper end of x is open (nothing moves on it): the equations of its knots are divided by its x, and
+    the share of the other side becomes a stray interval.
     """
 
-    PIECES = (  # what d x, v0, v1 (over x) bring: first quartic, cubic, last quartic
+    PIECES = (  # what multiplies d x, v0, v1 (over x): first quartic, cubic, last quartic
         ([0, 0, 0, 4, -3], [0, 0, 0, 0, 0], [0, 0, 0, -1, 1]),
         ([0, 0, 3, -2, 0], [0, 1, -2, 1, 0], [0, 0, -1, 1, 0]),
         ([0, 0, 6, -8, 3], [0, 1, -3, 3, -1], [0, 0, 0, 0, 0]),
@@ -48,13 +48,13 @@ class FourThreeFour(Tree):
         inner = {j: [(-v, v)] * (self.n - 1) for j, v in speeds.items()}
         self.root = Node(box, {j: [zero, *inside, zero] for j, inside in inner.items()})
 
-    def side(self, i: int, side: int) -> tuple[int, int, int, int]:
-        """Of knot i's row, before (0) or after (1): the segment, w, p, and the other waypoint."""
+    def _side(self, i: int, side: int) -> tuple[int, int, int, int]:
+        """Knot i's share before (0) or after (1) it: the segment, w, p, and the other waypoint."""
         m = i - 1 + side
         end = m == (self.n - 1 if side else 0)
         return m, 6 if end else 4, 12 if end else 6, i + 2 * side - 1
 
-    def turn(self, node: Node) -> None:
+    def _turn(self, node: Node) -> None:
         """Cut by the total time, choose a reference, enclose the velocities twice."""
         claim, n, box = self.claim, self.n, node.box
         for _ in range(2):
@@ -74,14 +74,14 @@ class FourThreeFour(Tree):
                     return
                 box[k] = [lo.lower(), None if hi is None else hi.upper()]
         opened = [hi is None for _, hi in box]
-        # any reference will do; this is the prover's, but for rounding
+        # any reference will do; this is the prover's up to rounding
         c = [R(float(lo if hi is None else (lo + hi) / 2)) for lo, hi in box]
         coefficient: dict[tuple[int, int], Any] = {}  # of x in each share at c; None: stray
         matrix = [[R(0)] * (n - 1) for _ in range(n - 1)]
         dropped = []
         for i in range(1, n):
             for side in range(2):
-                m, w, _, other = self.side(i, side)
+                m, w, _, other = self._side(i, side)
                 beside = opened[i - side]
                 f = None if beside else R(1) if opened[m] else c[m]
                 coefficient[i, side] = f
@@ -100,36 +100,36 @@ class FourThreeFour(Tree):
         for j in claim.moving:
             for _ in range(2):
                 if not node.empty:
-                    self.enclose(j, node)
+                    self._enclose(j, node)
 
-    def strays(self, j: int, node: Node) -> dict[int, Interval]:
+    def _strays(self, j: int, node: Node) -> dict[int, Interval]:
         """Per divided row: T_open x_m (w v_i + 2 v_other - p d_m x_m), T_open up to 1 / its least x."""
         _, _opened, coefficient, dropped, _ = node.reference
         found = {}
         for (i, side), f in coefficient.items():
             if f is None and i not in dropped:
-                m, w, p, other = self.side(i, side)
+                m, w, p, other = self._side(i, side)
                 V, x = node.known[j], (node.box[m][0], node.box[m][1])
                 share = plus(times(R(w), V[i]), times(R(2), V[other]))
                 share = plus(share, times(-p * self.claim.d[m][j], x))
                 found[i] = product(product(share, x), (R(0), 1 / node.box[i - side][0]))
         return found
 
-    def enclose(self, j: int, node: Node) -> None:
+    def _enclose(self, j: int, node: Node) -> None:
         """V = v_c + C [ sum_m (x_m - c_m) slopes - strays ] exactly, C = A(c)^-1, v_c = C b(c)."""
         c, opened, coefficient, dropped, inverse = node.reference
         n, V, d = self.n, node.known[j], self.claim.d
         b = [R(0)] * (n + 1)
         slopes: dict[tuple[int, int], Interval] = {}
         for (i, side), f in coefficient.items():
-            m, w, p, other = self.side(i, side)
+            m, w, p, other = self._side(i, side)
             if f is None or opened[m]:
                 continue
             b[i] += p * d[m][j] * c[m] * c[m]
             q = plus(times(R(w), V[i]), times(R(2), V[other]))
             x = times(p * d[m][j], (c[m] + node.box[m][0], c[m] + node.box[m][1]))
             slopes[m, i] = (x[0] - q[1], x[1] - q[0])
-        loose = {i: times(R(-1), xi) for i, xi in self.strays(j, node).items()}
+        loose = {i: times(R(-1), xi) for i, xi in self._strays(j, node).items()}
         centre = [sum((row[k] * b[k] for k in range(1, n)), R(0)) for row in inverse]
         loose |= {i: (V[i][0] - centre[i], V[i][1] - centre[i]) for i in dropped}
         new = list(V)
@@ -148,11 +148,11 @@ class FourThreeFour(Tree):
                 return
         node.known[j] = new
 
-    def excess(self, rows: Any, node: Node, box: list[list[Any]]) -> Any:
-        """Const + a share per segment."""
+    def _excess(self, rows: Any, node: Node, box: list[list[Any]]) -> Any:
+        """A constant and a share per segment."""
         need(node.reference is not None, "rows before a turn")
         if node.form[0] is not rows:
-            node.form = (rows, self.lagrangian(rows, node))
+            node.form = (rows, self._lagrangian(rows, node))
         const, alpha, kappa, nu, w = node.form[1]
         total = const
         for k, (lo, hi) in enumerate(box):
@@ -164,8 +164,8 @@ class FourThreeFour(Tree):
                 )
         return total
 
-    def lagrangian(self, rows: Any, node: Node) -> tuple[Any, ...]:
-        """Const; alpha (interval) and kappa per segment; nu; w. x v is split as c v + (x - c) v."""
+    def _lagrangian(self, rows: Any, node: Node) -> tuple[Any, ...]:
+        """Constant, alpha (interval) and kappa per segment, nu, w; x v is split as c v + (x - c) v."""
         claim, n = self.claim, self.n
         c, opened, coefficient, dropped, inverse = node.reference
         const, nu = R(0), R(0)
@@ -209,7 +209,7 @@ class FourThreeFour(Tree):
             rest = [R(0) if i in (0, n) else x for i, x in enumerate(weight)]
 
             def share(i: int, side: int, mu: Any, j: int = j, F: Any = F, rest: Any = rest) -> None:
-                m, a, p, other = self.side(i, side)
+                m, a, p, other = self._side(i, side)
                 for at, f in ((i, a * mu), (other, 2 * mu)):
                     F[m, at] = F.get((m, at), R(0)) + f
                     rest[at] += c[m] * f
@@ -218,13 +218,13 @@ class FourThreeFour(Tree):
             for (joint, _), knots in jumps.items():
                 for i, side, eta in knots if joint == j else ():
                     share(i, side, eta)
-            # multipliers of the knots that make the v-terms at c vanish
+            # multipliers of the knot equations that make the v-terms at c vanish
             mu = [-sum((rest[i] * inverse[i][k] for i in range(1, n)), R(0)) for k in range(1, n)]
             mu = [R(0), *(R(0) if k in dropped else x for k, x in enumerate(mu, 1))]
-            for i, xi in self.strays(j, node).items():
+            for i, xi in self._strays(j, node).items():
                 const += times(mu[i], xi)[0]
             for (i, side), f in coefficient.items():
-                m, a, _, other = self.side(i, side)
+                m, a, _, other = self._side(i, side)
                 if f is not None and opened[m]:
                     rest[i] += a * mu[i]
                     rest[other] += 2 * mu[i]

@@ -13,8 +13,8 @@ from compare.check_certificate.claim import Claim, index, items, number
 MOST_ROWS, MOST_CUTS, MOST_TRIPLES, MOST_WORK = 20_000, 1_000_000, 5_000_000, 1_000_000_000
 
 
-def least_on(a: Any, b: Any, c: Any, lo: Any, hi: Any) -> Any:
-    """Lower bound of a x + b / x - c / x^2 over x in [lo, hi] > 0, c >= 0.
+def _least_on(a: Any, b: Any, c: Any, lo: Any, hi: Any) -> Any:
+    """Bound a x + b / x - c / x^2 from below over x in [lo, hi] > 0, c >= 0.
 
     With u = 1/x in [p, q]: u^2 <= (p + q) u - p q. What is left, a / u + b' u, is concave or monotone
     in u, and least at an end, unless a, b' > 0; then it is convex, and nowhere below 2 sqrt(a b').
@@ -37,11 +37,11 @@ def least_on(a: Any, b: Any, c: Any, lo: Any, hi: Any) -> Any:
 class Quintic:
     """Variables x_k = 1/T_k; each condition ties x_k to its two neighbours alone.
 
-    The domains are cut into cells; a path takes a cell of each variable, and a motion lies on a path. A
-    triple of cells of neighbouring variables stands for all paths through it. It is discarded if a
-    condition is violated on all of it, or if a weighted sum of conditions is positive on every path
+    The domains are cut into cells. A path takes a cell of each variable, and every motion lies on a
+    path. A triple of cells of neighbouring variables stands for all paths through it. It is discarded if
+    a condition is violated on all of it, or if a weighted sum of conditions is positive on every path
     through it. The proof holds if some variable has no triple left. Events: C cuts the cells of a
-    segment, R gives rows that are tried one by one, L the rows of a sum.
+    segment, R gives conditions that are tried one by one, L gives those of a sum.
     """
 
     PIECE = ([0, 0, 0, 10, -15, 6], [0, 1, 0, -6, 8, -3], [0, 0, 0, -4, 7, -3])
@@ -68,20 +68,20 @@ class Quintic:
             need(self.work <= MOST_WORK, f"event {count}: too much work")
             if event[0] == "C" and len(event) == 3:
                 edges = [number(x) for x in items(event[2], 0, MOST_CUTS)]
-                self.cut(index(event[1], self.n) + 1, edges)
+                self._cut(index(event[1], self.n) + 1, edges)
             elif event[0] in ("R", "L") and len(event) == 2:
                 rows = [self.claim.row(row) for row in items(event[1], 0, MOST_ROWS)]
                 if event[0] == "R":
                     for row in rows:
-                        self.discard_row(row)
+                        self._discard_row(row)
                 else:
-                    self.discard_sum(rows)
+                    self._discard_sum(rows)
             else:
                 raise BadInput(f"event {count}: unknown event {raw!r:.20}")
         need(not all(self.triples), "the events end before every path has ended")
         return self.discards
 
-    def condition(self, row: Any) -> tuple[Any, ...]:
+    def _condition(self, row: Any) -> tuple[Any, ...]:
         """Segment, coefficients of x_{k-1}, x_k, x_{k+1}, limit, and the power of x_k under it."""
         need(row[0] == "p", "a row this family does not have")
         _, _, j, k, sign, order, s = row
@@ -94,12 +94,12 @@ class Quintic:
             return k, d[0] * b, own - self.claim.room(k, j, sign), d[2] * e, R(0), 0
         return k, d[0] * b, own, d[2] * e, self.claim.limit(order, j), order - 1
 
-    def discard_row(self, row: Any) -> None:
+    def _discard_row(self, row: Any) -> None:
         """Discard the triples on which one condition is violated.
 
         Linear shares, and A x - limit / x^p, which grows with x if A >= 0 and is concave if not.
         """
-        k, b, a, e, limit, power = self.condition(row)
+        k, b, a, e, limit, power = self._condition(row)
         b, a, e = b.lower(), a.lower(), e.lower()
         shares = [
             [least(*(part * x for x in ends)).lower() for ends in self.cells[k + shift]]
@@ -111,7 +111,7 @@ class Quintic:
         self.discards += len(self.triples[k]) - len(stay)
         self.triples[k] = stay
 
-    def discard_sum(self, rows: Any) -> None:
+    def _discard_sum(self, rows: Any) -> None:
         """Discard the triples through which the weighted sum is positive on every path."""
         n = self.n
         self.work += sum(map(len, self.triples))
@@ -122,14 +122,14 @@ class Quintic:
             if row[0] == "t":
                 const, nu = const - m * self.claim.L, nu + m
                 continue
-            k, *parts, limit, power = self.condition(row)
+            k, *parts, limit, power = self._condition(row)
             for shift, part in enumerate(parts):
                 a[k + shift] += m * part
             held[power][k + 1] += m * limit
         const -= sum(held[0], R(0))
         b = [(nu if counts else 0) - x for counts, x in zip(self.counts, held[1], strict=True)]
         phi = [
-            [least_on(a[k], b[k], held[2][k], *ends) for ends in cells]
+            [_least_on(a[k], b[k], held[2][k], *ends) for ends in cells]
             for k, cells in enumerate(self.cells)
         ]
         ahead: list[dict[tuple[int, int], Any]] = [
@@ -156,7 +156,7 @@ class Quintic:
             self.discards += len(self.triples[k]) - len(stay)
             self.triples[k] = stay
 
-    def cut(self, k: int, edges: list[Any]) -> None:
+    def _cut(self, k: int, edges: list[Any]) -> None:
         """Cut the cells of padded variable k at the edges inside them."""
         need(self.counts[k], "a cut of a segment on which nothing moves")
         edges.sort(key=float)

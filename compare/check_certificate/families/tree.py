@@ -1,4 +1,4 @@
-"""A search tree, replayed event by event."""
+"""A search tree of boxes, replayed event by event."""
 
 from __future__ import annotations
 
@@ -10,7 +10,11 @@ from compare.check_certificate.claim import MOST_SEGMENTS, Claim, index, items, 
 
 
 class Node:
-    """A box of the tree: ends [lo, hi] per variable (hi None: no end), what else is known there."""
+    """A box of the tree.
+
+    box: ends [lo, hi] per variable; hi is None where there is no upper end. known: what a family knows
+    on it beside. empty: whether the box is known to hold no motion.
+    """
 
     def __init__(self, box: list[list[Any]], known: Any = None, empty: bool = False) -> None:
         self.box, self.known, self.empty = [list(ends) for ends in box], known, empty
@@ -18,24 +22,37 @@ class Node:
         self.form: tuple[Any, Any] = (None, None)
 
     def half(self, k: int, end: int, value: Any) -> Node:
-        """The same box with one end moved."""
+        """Make the same box with one end moved.
+
+        Parameters
+        ----------
+        k, end : int
+            The variable, and 0 for its lower end or 1 for its upper one.
+        value : arb
+            The new end.
+
+        Returns
+        -------
+        Node
+            A box of its own.
+        """
         child = Node(self.box, self.known, self.empty)
         child.box[k][end] = value
         return child
 
 
 class Tree:
-    """Replays events; a family adds its domain, its excess and what a turn does."""
+    """Replays the events; a family adds its domain, its sums of conditions and what a turn does."""
 
     claim: Claim
     root: Node
 
-    def excess(self, rows: Any, node: Node, box: list[list[Any]]) -> Any:
-        """A lower bound of the weighted sum of conditions over a box within the node's."""
+    def _excess(self, rows: Any, node: Node, box: list[list[Any]]) -> Any:
+        """Lower bound of the weighted sum of conditions over a box within the node's."""
         raise NotImplementedError
 
-    def turn(self, node: Node) -> None:
-        """Narrow a node by what follows from its box."""
+    def _turn(self, node: Node) -> None:
+        """Narrow a node by what its box implies."""
         raise Refused("an event this family does not have")
 
     def replay(self) -> int:
@@ -57,13 +74,13 @@ class Tree:
                 lo, hi = node.box[k]
             if letter == "T":
                 if not node.empty:
-                    self.turn(node)
+                    self._turn(node)
             elif letter == "E":
                 need(node.empty, f"{where}: something is left of the box")
                 node = None
             elif letter == "L":
                 need(
-                    node.empty or self.excess(rows, node, node.box) > 0,
+                    node.empty or self._excess(rows, node, node.box) > 0,
                     f"{where}: the box is not discarded",
                 )
                 discards += 1
@@ -76,7 +93,7 @@ class Tree:
                 slab = [most(slab[0], lo), least(slab[1], hi)]
                 if not slab[0] > slab[1]:
                     box = [slab if i == k else ends for i, ends in enumerate(node.box)]
-                    need(self.excess(rows, node, box) > 0, f"{where}: the slab is not discarded")
+                    need(self._excess(rows, node, box) > 0, f"{where}: the slab is not discarded")
                     discards += 1
                     # the closed slab is gone
                     node.empty = bool(value <= lo if letter == "B" else value >= hi)

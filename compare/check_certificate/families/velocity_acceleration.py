@@ -1,4 +1,4 @@
-"""Every motion through the waypoints, B-splines among them: one sum."""
+"""Every motion through the waypoints, B-splines among them: one sum from velocities, accelerations."""
 
 from __future__ import annotations
 
@@ -9,8 +9,8 @@ from compare.check_certificate.claim import Claim, index, items, number
 MOST_CELLS = 1_000_000
 
 
-class EveryMotion:
-    """What holds for every motion from rest to rest, whatever its family.
+class VelocityAccelerationSum:
+    """A bound that holds for every motion from rest to rest, whatever its family.
 
     For m linear on each segment, mu_0 .. mu_n at the waypoints, and p linear on N cells of each,
     sum (mu_{k-1} - mu_k) d_k / T_k = int m q'' = int p q'' + int (p - m)' q'
