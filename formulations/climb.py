@@ -38,7 +38,6 @@ class RungResult:
         Time that the method took on this machine [s].
     note : str
         One line: how the number came about, or why there is none.
-
     """
 
     key: str
@@ -69,7 +68,6 @@ class Ladder:
     bound : FamilyBound or None
     free_form : FreeForm or None
     free_form_bound : FreeFormBound or None
-
     """
 
     problem: Problem
@@ -94,7 +92,6 @@ class Ladder:
         -------
         float or None
             Seconds; None if the rung has no number.
-
         """
         return self.rungs[key].seconds
 
@@ -105,7 +102,6 @@ class Ladder:
         -------
         dict
             Keys ``problem``, ``ladder``, ``durations`` and ``versions``.
-
         """
         return {
             "problem": self.problem.name,
@@ -142,7 +138,6 @@ class Climb:
         Relative gap aimed at between ``free_form`` and ``free_form_lower``.
     results, durations, trajectories, optimum, alone, bound, free_form, free_form_bound
         As in ``Ladder``.
-
     """
 
     problem: Problem
@@ -171,7 +166,6 @@ class Climb:
         -------
         float or None
             Seconds; None if the rung has no number.
-
         """
         return self.results[key].seconds
 
@@ -188,7 +182,6 @@ class Climb:
         Returns
         -------
         Ladder
-
         """
         for rung in rungs.values():
             self._climb(rung, rungs, progress)
@@ -255,7 +248,6 @@ def versions() -> dict[str, str]:
     -------
     dict of str to str
         "not installed" where a library is missing.
-
     """
     packages = ("timebound", "numpy", "scipy", "numba", "casadi", "toppra", "ruckig", "copp-py")
     found = {"python": platform.python_version()}

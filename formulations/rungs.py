@@ -71,7 +71,6 @@ def ladder(
     1.5
     >>> found.rungs["free_form"].status.value
     'ok'
-
     """
     climb = Climb(problem, seed, certify, certificate, gap)
     return climb.run(RUNGS, progress or (lambda key: None))
@@ -93,7 +92,7 @@ def _free_form_lower(climb: Climb) -> Outcome:
         note += f", gap {found.gap:.2g}"
     if found.status != "proved":
         note += f"; {found.ending}"
-    # the references' own numbers hold as well, should they be the better ones
+    # the simple bounds hold too; where one is as good, it is the one that is named
     simple = {key: climb.seconds(key) or 0.0 for key in ("displacement", "ruckig_end_to_end")}
     best = max(simple, key=lambda key: simple[key])
     if simple[best] >= found.seconds:
@@ -109,7 +108,7 @@ def _free_form(climb: Climb) -> Outcome:
     note = "; ".join([found.method, *found.notes])
     if found.status != "ok":
         note += f"; {found.status}"
-    # splines and stops are motions too: whatever is faster is the fastest known
+    # splines and stop-and-go are motions too; the fastest one of all is reported
     others = {key: climb.seconds(key) for key in ("family", "ruckig_stop_and_go")}
     for key, seconds in others.items():
         if seconds is not None and seconds < found.seconds and key in climb.trajectories:
@@ -137,6 +136,8 @@ def _family(climb: Climb) -> Outcome:
 
 
 def _family_lower(climb: Climb) -> Outcome:
+    if not climb.certify:
+        return Outcome.not_applicable("not asked for")
     if climb.optimum is None:
         return Outcome.not_applicable("there is no family optimum to start from")
     bound = family_bound(

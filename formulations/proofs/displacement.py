@@ -36,7 +36,6 @@ def displacement_bound(problem: Problem) -> float:
     -------
     float
         The displacement sum, rounded down [s].
-
     """
     return rounded_down(sum(_segments(problem), Fraction(0)))
 
@@ -52,7 +51,6 @@ def displacement_durations(problem: Problem) -> Array:
     Returns
     -------
     Array, shape (n_segments,) [s]
-
     """
     return np.array([rounded_down(segment) for segment in _segments(problem)])
 
@@ -69,7 +67,6 @@ def exceeded_time(problem: Problem) -> float:
     -------
     float
         ``displacement_bound`` less a relative 1e-13; 0 if nothing moves.
-
     """
     return displacement_bound(problem) * (1.0 - _STRICTLY)
 
@@ -86,7 +83,6 @@ def rounded_down(value: Fraction) -> float:
     -------
     float
         Finite, whatever the value.
-
     """
     try:
         nearest = float(value)

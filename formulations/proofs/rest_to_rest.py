@@ -28,7 +28,6 @@ def rest_to_rest(distance: float, velocity: float, acceleration: float, jerk: fl
     -------
     float
         Time [s].
-
     """
     if math.isinf(acceleration) and math.isinf(jerk):
         return distance / velocity
@@ -59,7 +58,6 @@ def rest_to_rest_bound(distance: Fraction, velocity: float, acceleration: float,
     -------
     float
         Proved lower bound [s].
-
     """
     if distance == 0:
         return 0.0
@@ -87,7 +85,6 @@ def end_to_end_bound(problem: Problem) -> float:
     -------
     float
         Bound of the slowest joint, rounded down [s].
-
     """
     first, last = problem.waypoints[0].tolist(), problem.waypoints[-1].tolist()
     return max(

@@ -56,7 +56,6 @@ class Outcome:
     1.5
     >>> Outcome.not_applicable("no jerk limit").status.value
     'not-applicable'
-
     """
 
     status: OutcomeStatus
@@ -89,7 +88,6 @@ class Outcome:
         Returns
         -------
         Outcome
-
         """
         return Outcome(OutcomeStatus.OK, seconds, durations, trajectory, note)
 
@@ -105,7 +103,6 @@ class Outcome:
         Returns
         -------
         Outcome
-
         """
         return Outcome(OutcomeStatus.NOT_APPLICABLE, note=reason)
 
@@ -121,7 +118,6 @@ class Outcome:
         Returns
         -------
         Outcome
-
         """
         return Outcome(OutcomeStatus.FAILED, note=reason)
 
@@ -147,7 +143,6 @@ class Rung:
         whose motion passes the check. The ladder runs that check itself.
     after : tuple of str
         Keys of the rungs whose results ``find`` looks at.
-
     """
 
     key: str

@@ -220,6 +220,15 @@ def test_progress_names_every_rung_once() -> None:
     assert sorted(seen) == sorted(KINDS)
 
 
+def test_a_bound_that_is_not_asked_for_is_not_proved() -> None:
+    text = "waypoints = [[0], [1], [3]]\n[limits]\nvelocity = 2\nacceleration = 1"
+    found = ladder(parse(text), certify=False)
+    assert found.bound is None
+    assert found.rungs["family_lower"].status == "not-applicable"
+    assert found.rungs["family_lower"].note == "not asked for"
+    assert found.rungs["family"].status == "ok"
+
+
 # --- problems that leave rungs empty --------------------------------------------------------------
 
 
