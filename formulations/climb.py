@@ -18,7 +18,7 @@ from formulations.problem.errors import NoFeasibleMotion, UnsupportedProblem
 from formulations.problem.problem import Problem
 from formulations.proofs.every_motion.bound import FreeFormBound
 from formulations.proofs.family import FamilyBound
-from formulations.references.reference import Kind, Outcome, Rung, Status, Takes
+from formulations.references.reference import Outcome, OutcomeStatus, Rung, RungKind, Takes
 
 
 @dataclass(frozen=True)
@@ -28,8 +28,8 @@ class RungResult:
     Attributes
     ----------
     key : str
-    kind : Kind
-    status : Status
+    kind : RungKind
+    status : OutcomeStatus
     seconds : float or None
         The number [s]; None unless the status is ok.
     certified : bool
@@ -38,12 +38,11 @@ class RungResult:
         Time that the method took on this machine [s].
     note : str
         One line: how the number came about, or why there is none.
-
     """
 
     key: str
-    kind: Kind
-    status: Status
+    kind: RungKind
+    status: OutcomeStatus
     seconds: float | None
     certified: bool
     runtime: float
@@ -69,7 +68,6 @@ class Ladder:
     bound : FamilyBound or None
     free_form : FreeForm or None
     free_form_bound : FreeFormBound or None
-
     """
 
     problem: Problem
@@ -94,7 +92,6 @@ class Ladder:
         -------
         float or None
             Seconds; None if the rung has no number.
-
         """
         return self.rungs[key].seconds
 
@@ -105,7 +102,6 @@ class Ladder:
         -------
         dict
             Keys ``problem``, ``ladder``, ``durations`` and ``versions``.
-
         """
         return {
             "problem": self.problem.name,
@@ -142,7 +138,6 @@ class Climb:
         Relative gap aimed at between ``free_form`` and ``free_form_lower``.
     results, durations, trajectories, optimum, alone, bound, free_form, free_form_bound
         As in ``Ladder``.
-
     """
 
     problem: Problem
@@ -171,7 +166,6 @@ class Climb:
         -------
         float or None
             Seconds; None if the rung has no number.
-
         """
         return self.results[key].seconds
 
@@ -188,7 +182,6 @@ class Climb:
         Returns
         -------
         Ladder
-
         """
         for rung in rungs.values():
             self._climb(rung, rungs, progress)
@@ -213,8 +206,8 @@ class Climb:
         started = time.perf_counter()
         outcome = self._judged(rung, self._found(rung))
         runtime = time.perf_counter() - started
-        shown = rung.kind is Kind.LOWER or outcome.trajectory is not None
-        certified = rung.certified and outcome.status is Status.OK and shown
+        shown = rung.kind is RungKind.LOWER or outcome.trajectory is not None
+        certified = rung.certified and outcome.status is OutcomeStatus.OK and shown
         self.results[rung.key] = RungResult(
             rung.key, rung.kind, outcome.status, outcome.seconds, certified, runtime, outcome.note
         )
@@ -240,7 +233,7 @@ class Climb:
 
     def _judged(self, rung: Rung, outcome: Outcome) -> Outcome:
         """Check the motion of an upper bound, whoever made it."""
-        if rung.kind is not Kind.UPPER or outcome.trajectory is None:
+        if rung.kind is not RungKind.UPPER or outcome.trajectory is None:
             return outcome
         verdict = check(self.problem, outcome.trajectory)
         if verdict.feasible:
@@ -255,7 +248,6 @@ def versions() -> dict[str, str]:
     -------
     dict of str to str
         "not installed" where a library is missing.
-
     """
     packages = ("timebound", "numpy", "scipy", "numba", "casadi", "toppra", "ruckig", "copp-py")
     found = {"python": platform.python_version()}

@@ -22,7 +22,7 @@ from formulations.proofs.every_motion.bound import free_form_bound
 from formulations.proofs.family import family_bound
 from formulations.references.copp_ import COPP_FAMILY_PATH
 from formulations.references.displacement import DISPLACEMENT
-from formulations.references.reference import Kind, Outcome, Rung, Takes
+from formulations.references.reference import Outcome, Rung, RungKind, Takes
 from formulations.references.ruckig_ import RUCKIG_END_TO_END, RUCKIG_STOP_AND_GO
 from formulations.references.toppra_ import TOPPRA_CUBIC, TOPPRA_FAMILY_PATH
 
@@ -71,7 +71,6 @@ def ladder(
     1.5
     >>> found.rungs["free_form"].status.value
     'ok'
-
     """
     climb = Climb(problem, seed, certify, certificate, gap)
     return climb.run(RUNGS, progress or (lambda key: None))
@@ -93,7 +92,7 @@ def _free_form_lower(climb: Climb) -> Outcome:
         note += f", gap {found.gap:.2g}"
     if found.status != "proved":
         note += f"; {found.ending}"
-    # the references' own numbers hold as well, should they be the better ones
+    # the simple bounds hold too; where one is as good, it is the one that is named
     simple = {key: climb.seconds(key) or 0.0 for key in ("displacement", "ruckig_end_to_end")}
     best = max(simple, key=lambda key: simple[key])
     if simple[best] >= found.seconds:
@@ -109,7 +108,7 @@ def _free_form(climb: Climb) -> Outcome:
     note = "; ".join([found.method, *found.notes])
     if found.status != "ok":
         note += f"; {found.status}"
-    # splines and stops are motions too: whatever is faster is the fastest known
+    # splines and stop-and-go are motions too; the fastest one of all is reported
     others = {key: climb.seconds(key) for key in ("family", "ruckig_stop_and_go")}
     for key, seconds in others.items():
         if seconds is not None and seconds < found.seconds and key in climb.trajectories:
@@ -194,7 +193,7 @@ RUNGS: dict[str, Rung] = {
         RUCKIG_END_TO_END,
         Rung(
             key="free_form_lower",
-            kind=Kind.LOWER,
+            kind=RungKind.LOWER,
             name="best bound on any motion",
             meaning="no motion is faster: the best such bound",
             find=_free_form_lower,
@@ -204,7 +203,7 @@ RUNGS: dict[str, Rung] = {
         ),
         Rung(
             key="free_form",
-            kind=Kind.UPPER,
+            kind=RungKind.UPPER,
             name="fastest motion known",
             meaning="fastest verified motion through the waypoints",
             find=_free_form,
@@ -215,7 +214,7 @@ RUNGS: dict[str, Rung] = {
         RUCKIG_STOP_AND_GO,
         Rung(
             key="family_lower",
-            kind=Kind.LOWER,
+            kind=RungKind.LOWER,
             name="certified bound of the family",
             meaning="no durations in the family are faster, certified",
             find=_family_lower,
@@ -225,7 +224,7 @@ RUNGS: dict[str, Rung] = {
         ),
         Rung(
             key="family",
-            kind=Kind.UPPER,
+            kind=RungKind.UPPER,
             name="optimum of the family",
             meaning="exact NLP optimum of the family",
             find=_family,
@@ -234,7 +233,7 @@ RUNGS: dict[str, Rung] = {
         ),
         Rung(
             key="family_longest_segment",
-            kind=Kind.UPPER,
+            kind=RungKind.UPPER,
             name="each joint alone, longest time per segment, stretched",
             meaning="each joint alone, longest time per segment, stretched",
             find=_longest_segment,

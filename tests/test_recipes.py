@@ -33,7 +33,7 @@ REFERENCE = '''\
 from __future__ import annotations
 
 from formulations.problem.problem import Problem
-from formulations.references.reference import Kind, Outcome, Rung
+from formulations.references.reference import RungKind, Outcome, Rung
 
 
 def mine(problem: Problem) -> Outcome:
@@ -44,7 +44,7 @@ def mine(problem: Problem) -> Outcome:
 
 
 MINE = Rung(
-    key="mine", kind=Kind.REFERENCE, name="one second each", meaning="a second per segment", find=mine
+    key="mine", kind=RungKind.REFERENCE, name="one second each", meaning="a second per segment", find=mine
 )
 '''
 
@@ -103,7 +103,7 @@ def test_add_a_case(copy: Copy) -> None:
     found = ladder_of(copy, "mine")
     assert found["family"]["status"] == "ok"
     # and the tests over all cases run over it
-    assert "[mine]" in copy.test("tests/formulations", "--collect-only")
+    assert "[mine]" in copy.test("tests/formulations/problem", "--collect-only")
 
 
 def test_add_a_reference(copy: Copy) -> None:

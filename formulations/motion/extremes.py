@@ -22,7 +22,6 @@ class Extremes:
         The values [rad/s^order].
     time_low, time_high : Array, shape (n_pieces, dof)
         Their times from the start of the motion [s].
-
     """
 
     low: Array
@@ -48,7 +47,6 @@ def find_extremes(pieces: Array, durations: Array, breaks: Array, order: int) ->
     Returns
     -------
     Extremes
-
     """
     value = differentiated(pieces, order)
     ends = np.broadcast_to([0.0, 1.0], (*value.shape[:2], 2))
@@ -77,7 +75,6 @@ def differentiated(polynomials: Array, order: int) -> Array:
     Returns
     -------
     Array, shape (..., max(n - order, 1))
-
     """
     for _ in range(order):
         width = polynomials.shape[-1]
@@ -100,7 +97,6 @@ def evaluated(polynomials: Array, points: Array) -> Array:
     Returns
     -------
     Array, shape (..., m)
-
     """
     values = np.zeros_like(points)
     for k in range(polynomials.shape[-1] - 1, -1, -1):

@@ -40,7 +40,6 @@ class Trajectory:
     2.0
     >>> ramp.at([0.0, 2.0]).tolist()
     [[0.0], [1.0]]
-
     """
 
     durations: Array
@@ -98,7 +97,6 @@ class Trajectory:
         -------
         Array, shape (..., dof)
             Values [rad/s^order].
-
         """
         return np.asarray(self._piecewise(np.asarray(times, dtype=np.float64), nu=order))
 
@@ -121,7 +119,6 @@ class Trajectory:
         ------
         InputError
             For a rate that is not positive.
-
         """
         if not (np.isfinite(rate) and rate > 0.0):
             raise InputError(f"trajectory: a sample rate must be positive, got {rate:g}")
@@ -142,7 +139,6 @@ class Trajectory:
         -------
         Trajectory
             Velocities are divided by the factor, accelerations by its square, jerks by its cube.
-
         """
         powers = factor ** -np.arange(self.coefficients.shape[2], dtype=np.float64)
         return Trajectory(
@@ -163,7 +159,6 @@ class Trajectory:
         -------
         Extremes
             Computed once and kept.
-
         """
         if order not in self._extremes:
             self._extremes[order] = find_extremes(self._normalised, self.durations, self.breaks, order)

@@ -40,7 +40,6 @@ class Peak:
     stretch : float
         Factor on all durations that would just keep the limit; infinite for a position, as no stretch
         changes the path.
-
     """
 
     quantity: str
@@ -77,7 +76,6 @@ class Verdict:
         The worst place of each quantity that is limited, worst first.
     faults : tuple of str
         All that is wrong, a line each; empty if feasible.
-
     """
 
     seconds: float
@@ -139,7 +137,6 @@ def check(
     >>> slower = f.check(problem, spline.stretched(verdict.stretch))
     >>> slower.feasible
     True
-
     """
     asked = conditions or Conditions()
     if trajectory.dof != problem.dof:

@@ -12,7 +12,7 @@ from __future__ import annotations
 import sys
 from fractions import Fraction
 from itertools import pairwise
-from math import nextafter
+from math import isfinite, nextafter
 
 import numpy as np
 
@@ -36,7 +36,6 @@ def displacement_bound(problem: Problem) -> float:
     -------
     float
         The displacement sum, rounded down [s].
-
     """
     return rounded_down(sum(_segments(problem), Fraction(0)))
 
@@ -52,7 +51,6 @@ def displacement_durations(problem: Problem) -> Array:
     Returns
     -------
     Array, shape (n_segments,) [s]
-
     """
     return np.array([rounded_down(segment) for segment in _segments(problem)])
 
@@ -69,7 +67,6 @@ def exceeded_time(problem: Problem) -> float:
     -------
     float
         ``displacement_bound`` less a relative 1e-13; 0 if nothing moves.
-
     """
     return displacement_bound(problem) * (1.0 - _STRICTLY)
 
@@ -86,7 +83,6 @@ def rounded_down(value: Fraction) -> float:
     -------
     float
         Finite, whatever the value.
-
     """
     try:
         nearest = float(value)
@@ -97,9 +93,12 @@ def rounded_down(value: Fraction) -> float:
 
 def _segments(problem: Problem) -> list[Fraction]:
     """Exact least duration of each segment [s]."""
-    speeds = [Fraction(speed) for speed in problem.limits.velocity.tolist()]
+    # slowness [s/rad]; 0 for a joint without a velocity limit
+    slowness = [
+        1 / Fraction(v) if isfinite(v) else Fraction(0) for v in problem.limits.velocity.tolist()
+    ]
     rows = [[Fraction(x) for x in row] for row in problem.waypoints.tolist()]
     return [
-        max(abs(end - start) / speed for start, end, speed in zip(a, b, speeds, strict=True))
+        max(abs(end - start) * s for start, end, s in zip(a, b, slowness, strict=True))
         for a, b in pairwise(rows)
     ]

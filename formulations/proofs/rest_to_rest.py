@@ -22,18 +22,17 @@ def rest_to_rest(distance: float, velocity: float, acceleration: float, jerk: fl
     distance : float [rad]
         Not negative.
     velocity, acceleration, jerk : float [rad/s, rad/s^2, rad/s^3]
-        Positive limits; the jerk limit, or both the last two, may be infinite.
+        Positive limits; each may be infinite.
 
     Returns
     -------
     float
         Time [s].
-
     """
     if math.isinf(acceleration) and math.isinf(jerk):
         return distance / velocity
     # time to reach top speed from rest, with and without a phase of constant acceleration
-    if velocity / acceleration >= acceleration / jerk:
+    if velocity / acceleration >= acceleration / jerk:  # false for infinities over each other
         ramp = velocity / acceleration + acceleration / jerk
     else:
         ramp = 2.0 * math.sqrt(velocity / jerk)
@@ -53,18 +52,17 @@ def rest_to_rest_bound(distance: Fraction, velocity: float, acceleration: float,
     distance : Fraction [rad]
         Exact, not negative.
     velocity, acceleration, jerk : float [rad/s, rad/s^2, rad/s^3]
-        Positive limits; all but the first may be infinite.
+        Positive limits; each may be infinite.
 
     Returns
     -------
     float
         Proved lower bound [s].
-
     """
     if distance == 0:
         return 0.0
     if math.isinf(acceleration) and math.isinf(jerk):
-        return rounded_down(distance / Fraction(velocity))
+        return 0.0 if math.isinf(velocity) else rounded_down(distance / Fraction(velocity))
     seconds = rest_to_rest(float(distance), velocity, acceleration, jerk)
     step = 1
     while not _takes_at_least(seconds, distance, velocity, acceleration, jerk):
@@ -87,7 +85,6 @@ def end_to_end_bound(problem: Problem) -> float:
     -------
     float
         Bound of the slowest joint, rounded down [s].
-
     """
     first, last = problem.waypoints[0].tolist(), problem.waypoints[-1].tolist()
     return max(
@@ -100,7 +97,8 @@ def _takes_at_least(
     seconds: float, distance: Fraction, velocity: float, acceleration: float, jerk: float
 ) -> bool:
     """Whether ``distance`` is as far as a joint gets from rest to rest in ``seconds``, or farther."""
-    T, V = Fraction(seconds), Fraction(velocity)
+    T = Fraction(seconds)
+    V = None if math.isinf(velocity) else Fraction(velocity)
     A = None if math.isinf(acceleration) else Fraction(acceleration)
     J = None if math.isinf(jerk) else Fraction(jerk)
     half = T / 2
@@ -112,7 +110,7 @@ def _takes_at_least(
         speed = J * half * half / 4
     else:
         speed = A * (half - A / J)
-    if speed <= V:
+    if V is None or speed <= V:
         return speed * half <= distance
     # top speed is held; either ramp covers half of its time times V, so the distance is V (T - ramp)
     cruise = T - distance / V

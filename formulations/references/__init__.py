@@ -10,7 +10,7 @@ reference      what a rung is and what its function returns
 from __future__ import annotations
 
 from formulations.references.copp_ import copp_on
-from formulations.references.reference import Kind, Outcome, Rung, Status, Takes
+from formulations.references.reference import Outcome, OutcomeStatus, Rung, RungKind, Takes
 from formulations.references.toppra_ import toppra_on
 
-__all__ = ["Kind", "Outcome", "Rung", "Status", "Takes", "copp_on", "toppra_on"]
+__all__ = ["Outcome", "OutcomeStatus", "Rung", "RungKind", "Takes", "copp_on", "toppra_on"]

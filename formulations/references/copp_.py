@@ -15,7 +15,7 @@ import numpy as np
 from formulations.motion.trajectory import Trajectory
 from formulations.problem.arrays import Array
 from formulations.problem.problem import Problem
-from formulations.references.reference import Kind, Outcome, Rung, Takes
+from formulations.references.reference import Outcome, Rung, RungKind, Takes
 
 _GRIDS = (24, 48)  # intervals per piece
 _SETTLED = 1e-5  # relative change of the time at which linearising again ends
@@ -114,7 +114,7 @@ def _refined(
 
 COPP_FAMILY_PATH = Rung(
     key="copp_family_path",
-    kind=Kind.REFERENCE,
+    kind=RungKind.REFERENCE,
     name="COPP, path of the optimum",
     meaning="jerk-limited optimum on the family optimum's path",
     find=copp_on,

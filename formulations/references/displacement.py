@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from formulations.problem.problem import Problem
 from formulations.proofs.displacement import displacement_bound, displacement_durations
-from formulations.references.reference import Kind, Outcome, Rung
+from formulations.references.reference import Outcome, Rung, RungKind
 
 
 def displacement(problem: Problem) -> Outcome:
@@ -29,7 +29,7 @@ def displacement(problem: Problem) -> Outcome:
 
 DISPLACEMENT = Rung(
     key="displacement",
-    kind=Kind.LOWER,
+    kind=RungKind.LOWER,
     name="displacement bound",
     meaning="no motion is faster: displacement at top speed",
     find=displacement,

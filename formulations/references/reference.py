@@ -10,7 +10,7 @@ from formulations.motion.trajectory import Trajectory
 from formulations.problem.arrays import Array
 
 
-class Kind(StrEnum):
+class RungKind(StrEnum):
     """What the number of a rung says about the fastest motion."""
 
     LOWER = "lower"  # no motion (of the family) is faster
@@ -18,7 +18,7 @@ class Kind(StrEnum):
     REFERENCE = "reference"  # neither: a timing to compare with
 
 
-class Status(StrEnum):
+class OutcomeStatus(StrEnum):
     """How the method of a rung ended."""
 
     OK = "ok"
@@ -40,7 +40,7 @@ class Outcome:
 
     Attributes
     ----------
-    status : Status
+    status : OutcomeStatus
     seconds : float, optional
         The timing [s]; None unless the status is ok.
     durations : Array, shape (n_segments,), optional
@@ -56,10 +56,9 @@ class Outcome:
     1.5
     >>> Outcome.not_applicable("no jerk limit").status.value
     'not-applicable'
-
     """
 
-    status: Status
+    status: OutcomeStatus
     seconds: float | None = None
     durations: Array | None = None
     trajectory: Trajectory | None = None
@@ -89,9 +88,8 @@ class Outcome:
         Returns
         -------
         Outcome
-
         """
-        return Outcome(Status.OK, seconds, durations, trajectory, note)
+        return Outcome(OutcomeStatus.OK, seconds, durations, trajectory, note)
 
     @staticmethod
     def not_applicable(reason: str) -> Outcome:
@@ -105,9 +103,8 @@ class Outcome:
         Returns
         -------
         Outcome
-
         """
-        return Outcome(Status.NOT_APPLICABLE, note=reason)
+        return Outcome(OutcomeStatus.NOT_APPLICABLE, note=reason)
 
     @staticmethod
     def failed(reason: str) -> Outcome:
@@ -121,9 +118,8 @@ class Outcome:
         Returns
         -------
         Outcome
-
         """
-        return Outcome(Status.FAILED, note=reason)
+        return Outcome(OutcomeStatus.FAILED, note=reason)
 
 
 @dataclass(frozen=True)
@@ -134,7 +130,7 @@ class Rung:
     ----------
     key : str
         Name in the JSON of the ladder.
-    kind : Kind
+    kind : RungKind
     name : str
         Name in pictures.
     meaning : str
@@ -147,11 +143,10 @@ class Rung:
         whose motion passes the check. The ladder runs that check itself.
     after : tuple of str
         Keys of the rungs whose results ``find`` looks at.
-
     """
 
     key: str
-    kind: Kind
+    kind: RungKind
     name: str
     meaning: str
     find: Callable[..., Outcome]

@@ -17,7 +17,7 @@ from formulations.motion.verdict import check
 from formulations.problem.arrays import Array
 from formulations.problem.problem import Problem
 from formulations.proofs.rest_to_rest import end_to_end_bound
-from formulations.references.reference import Kind, Outcome, Rung
+from formulations.references.reference import Outcome, Rung, RungKind
 
 
 def ruckig_end_to_end(problem: Problem) -> Outcome:
@@ -172,7 +172,7 @@ def pieces_of(answer: ruckig.Trajectory, start: Array) -> tuple[Array, Array]:
 
 RUCKIG_END_TO_END = Rung(
     key="ruckig_end_to_end",
-    kind=Kind.LOWER,
+    kind=RungKind.LOWER,
     name="Ruckig, end to end",
     meaning="no motion is faster: Ruckig, inner waypoints ignored",
     find=ruckig_end_to_end,
@@ -180,7 +180,7 @@ RUCKIG_END_TO_END = Rung(
 )
 RUCKIG_STOP_AND_GO = Rung(
     key="ruckig_stop_and_go",
-    kind=Kind.UPPER,
+    kind=RungKind.UPPER,
     name="Ruckig, stop and go",
     meaning="Ruckig with a full stop at each waypoint",
     find=ruckig_stop_and_go,

@@ -19,7 +19,7 @@ from formulations.motion.trajectory import Trajectory
 from formulations.problem.arrays import Array
 from formulations.problem.problem import Problem
 from formulations.proofs.displacement import displacement_durations
-from formulations.references.reference import Kind, Outcome, Rung, Takes
+from formulations.references.reference import Outcome, Rung, RungKind, Takes
 
 _GRIDS = (100, 200, 400, 800, 1600)  # intervals per path piece, coarse to fine
 _GRID_ERROR = 2e-4  # refine until doubling the grid changes the duration by less
@@ -188,7 +188,7 @@ def _symmetric(limit: Array) -> Array:
 
 TOPPRA_FAMILY_PATH = Rung(
     key="toppra_family_path",
-    kind=Kind.REFERENCE,
+    kind=RungKind.REFERENCE,
     name="TOPP-RA, path of the optimum (no jerk limit)",
     meaning="TOPP-RA on the family optimum's path, no jerk limit",
     find=toppra_on,
@@ -197,7 +197,7 @@ TOPPRA_FAMILY_PATH = Rung(
 )
 TOPPRA_CUBIC = Rung(
     key="toppra_cubic",
-    kind=Kind.REFERENCE,
+    kind=RungKind.REFERENCE,
     name="TOPP-RA, clamped cubic (no jerk limit)",
     meaning="TOPP-RA on the clamped cubic, no jerk limit",
     find=toppra_cubic,

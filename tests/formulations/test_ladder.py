@@ -29,7 +29,7 @@ from formulations import (
     parse,
 )
 from formulations.climb import Climb
-from formulations.references import Kind, Outcome, Rung
+from formulations.references import Outcome, Rung, RungKind
 
 KINDS = {key: rung.kind for key, rung in RUNGS.items()}
 AGREED = {  # keys and kinds that other programs read; new ones may join
@@ -153,7 +153,7 @@ def test_an_upper_bound_whose_motion_breaks_a_limit_is_failed() -> None:
     def too_fast(problem: Problem) -> Outcome:
         return Outcome.ok(motion.seconds / 2.0, trajectory=motion.stretched(0.5))
 
-    rung = Rung("mine", Kind.UPPER, "mine", "a motion", too_fast, certified=True)
+    rung = Rung("mine", RungKind.UPPER, "mine", "a motion", too_fast, certified=True)
     found = Climb(problem).run({"mine": rung}, lambda key: None).rungs["mine"]
     assert (found.status, found.seconds, found.certified) == ("failed", None, False)
     assert "over the limit" in found.note
@@ -218,6 +218,15 @@ def test_progress_names_every_rung_once() -> None:
         parse("waypoints = [[0], [1]]\n[limits]\nvelocity = 1\nacceleration = 1"), progress=seen.append
     )
     assert sorted(seen) == sorted(KINDS)
+
+
+def test_a_bound_that_is_not_asked_for_is_not_proved() -> None:
+    text = "waypoints = [[0], [1], [3]]\n[limits]\nvelocity = 2\nacceleration = 1"
+    found = ladder(parse(text), certify=False)
+    assert found.bound is None
+    assert found.rungs["family_lower"].status == "not-applicable"
+    assert found.rungs["family_lower"].note == "not asked for"
+    assert found.rungs["family"].status == "ok"
 
 
 # --- problems that leave rungs empty --------------------------------------------------------------

@@ -28,7 +28,7 @@ from formulations.problem.errors import OutOfReach
 
 DEG = np.pi / 180.0
 
-# 000 Table 4 [m, rad]; 001 Fig. 4 [mm]; 002 sec. 5.1 [mm]; 004 Table 2 [mm]
+# Wang 2025, Table 4 [m, rad]; Li 2022, Fig. 4 [mm]; Zhou 2025, sec. 5.1 [mm]; Zhang 2025, Table 2 [mm]
 SR4C = [
     (0.2239, 0.0531, 0.4956, 1.8709, -0.5077, -0.7550),
     (0.2364, 0.1262, 0.5953, 2.7407, -0.3731, -1.5064),

@@ -31,7 +31,7 @@ from formulations import FAMILIES, Limits, Problem, load
 
 
 def matrix_353(t1: float, t2: float, t3: float) -> Array:
-    """000 eq. 5, 004 eq. 9, 002 eq. 5: unknowns k13 k12 k11 k10, k25..k20, k33..k30."""
+    """Wang 2025, eq. 5; Zhang 2025, eq. 9; Zhou 2025, eq. 5: unknowns k13 k12 k11 k10, k25..k20, k33..k30."""
     return np.array(
         [
             [t1**3, t1**2, t1, 1, 0, 0, 0, 0, 0, -1, 0, 0, 0, 0],
@@ -54,7 +54,7 @@ def matrix_353(t1: float, t2: float, t3: float) -> Array:
 
 
 def matrix_434(t: Array) -> Array:
-    """001 eq. 9, its matrix C for any number of segments: quartic, cubics, quartic, descending."""
+    """Li 2022, eq. 9, its matrix C for any number of segments: quartic, cubics, quartic, descending."""
     n = len(t)
     degrees = [4, *[3] * (n - 2), 4]
     first = np.concatenate([[0], np.cumsum(np.array(degrees) + 1)])  # column of each leading one
@@ -180,7 +180,7 @@ def test_quintics_solve_six_conditions_each_with_the_mean_rule(
 @pytest.mark.parametrize("family", B_SPLINES)
 @given(data=st.data())
 def test_b_splines_solve_the_full_system_of_scipys_basis(family: str, data: st.DataObject) -> None:
-    """003 eq. 1-12: knots by running means, interpolation, and rest at both ends as equations."""
+    """Lu & Wang 2024, eq. 1-12: knots by running means, interpolation, and rest at both ends as equations."""
     problem, t = data.draw(candidates(family, -1.0, 1.0, reach=(-2.0, 1.0)))
     degree, n = B_SPLINES[family], problem.n_segments
     total = t.sum()

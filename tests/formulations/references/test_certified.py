@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from dataclasses import replace
 from fractions import Fraction
 from itertools import pairwise
 from math import isinf
@@ -12,8 +13,10 @@ from conftest import problems
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
-from formulations import CASES, REFERENCES, Problem, load
+from formulations import CASES, REFERENCES, Limits, Problem, load
+from formulations.proofs.displacement import displacement_bound
 from formulations.proofs.every_motion.horizons import HorizonSearch
+from formulations.proofs.rest_to_rest import rest_to_rest, rest_to_rest_bound
 
 
 def exact_displacement(problem: Problem) -> Fraction:
@@ -103,6 +106,21 @@ def holds(problem: Problem) -> None:
     assert Fraction(outcome.seconds) <= exact
     assert Fraction(float(np.nextafter(outcome.seconds, np.inf))) > exact
     assert Fraction(HorizonSearch(problem, None, None).bounds["displacement"]) <= exact
+
+
+@pytest.mark.parametrize("velocity", [1.0, 1e9, np.inf])
+@pytest.mark.parametrize("acceleration", [1.0, 1e200, np.inf])
+@pytest.mark.parametrize("jerk", [1.0, 1e-200, np.inf])
+def test_extreme_and_absent_limits_have_a_bound(
+    velocity: float, acceleration: float, jerk: float
+) -> None:
+    """In code a velocity may be unlimited; a motion then needs no time, or what the others ask for."""
+    bound = rest_to_rest_bound(Fraction(2), velocity, acceleration, jerk)
+    close = rest_to_rest(2.0, velocity, acceleration, jerk)
+    assert bound >= 0.0
+    assert bound == pytest.approx(close, rel=1e-14, abs=0.0)
+    unlimited = replace(Limits.of(1.0, dof=1), velocity=np.array([np.inf]))
+    assert displacement_bound(Problem.of([[0.0], [1.0]], unlimited)) == 0.0
 
 
 @pytest.mark.parametrize("case", CASES)
