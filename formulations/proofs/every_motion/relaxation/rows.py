@@ -57,22 +57,20 @@ class Rows:
     upper : Array, shape (m,)
     scale : Array, shape (m,)
         The power of two by which each row, as the equations above have it, was multiplied.
+    largest : Array, shape (m,)
+        The largest modulus of a coefficient in each row.
     """
 
     matrix: csr_array
     upper: Array
     scale: Array
+    largest: Array
 
     def __len__(self) -> int:
         return len(self.upper)
 
     def __getitem__(self, which: Indices | Truths) -> Rows:
-        return Rows(self.matrix[which], self.upper[which], self.scale[which])
-
-    @property
-    def largest(self) -> Array:
-        """The largest modulus of a coefficient in each row, (m,)."""
-        return np.asarray(abs(self.matrix).max(axis=1).toarray().ravel())
+        return Rows(self.matrix[which], self.upper[which], self.scale[which], self.largest[which])
 
     @property
     def finite(self) -> Truths:
@@ -85,15 +83,14 @@ class Rows:
 
     def in_range(self) -> Rows:
         """The same rows, made ``normal`` where a coefficient is too large for the solver."""
-        largest = self.largest
-        high = (largest > _LARGEST) & np.isfinite(largest)
+        high = (self.largest > _LARGEST) & np.isfinite(self.largest)
         if not high.any():
             return self
-        return self._scaled(np.where(high, np.exp2(-np.floor(np.log2(largest))), 1.0))
+        return self._scaled(np.where(high, np.exp2(-np.floor(np.log2(self.largest))), 1.0))
 
     def _scaled(self, scale: Array) -> Rows:
         matrix = csr_array(self.matrix.multiply(scale[:, None]))
-        return Rows(matrix, self.upper * scale, self.scale * scale)
+        return Rows(matrix, self.upper * scale, self.scale * scale, self.largest * scale)
 
     @staticmethod
     def joined(blocks: list[Rows]) -> Rows:
@@ -108,10 +105,8 @@ class Rows:
         Rows
         """
         matrix = csr_array(vstack([block.matrix for block in blocks], format="csr"))
-        upper, scale = (
-            np.concatenate([getattr(b, name) for b in blocks]) for name in ("upper", "scale")
-        )
-        return Rows(matrix, upper, scale)
+        columns = [[b.upper, b.scale, b.largest] for b in blocks]
+        return Rows(matrix, *(np.concatenate(column) for column in zip(*columns, strict=True)))
 
 
 class Frame:
@@ -316,7 +311,8 @@ class Frame:
         size = (np.abs(a) * self._sizes[where]).sum(axis=1) + np.abs(upper)
         starts = np.arange(0, a.size + 1, a.shape[1])
         matrix = csr_array((a.ravel(), where.ravel(), starts), shape=(len(upper), self.size))
-        return Rows(matrix, upper + _ALLOWANCE * size, np.ones(len(upper)))
+        largest = np.abs(a).max(axis=1, initial=0.0)
+        return Rows(matrix, upper + _ALLOWANCE * size, np.ones(len(upper)), largest)
 
 
 def _require(sound: Truths) -> None:
