@@ -17,9 +17,9 @@ from formulations.optima.family.optimum import each_joint_alone, family_optimum
 from formulations.optima.family.papers_rule import longest_segment
 from formulations.optima.free_form import free_form
 from formulations.problem.problem import Problem
-from formulations.proofs.alternation import BoundStatus
 from formulations.proofs.every_motion.bound import free_form_bound
 from formulations.proofs.family import family_bound
+from formulations.proofs.status import BoundStatus
 from formulations.references.copp_ import COPP_FAMILY_PATH
 from formulations.references.displacement import DISPLACEMENT
 from formulations.references.reference import Outcome, Rung, RungKind, Takes

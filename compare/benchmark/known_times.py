@@ -27,7 +27,7 @@ SWARMS: dict[str, str] = {
     "cobot": "pso-zhang-2025",
     "z1": "whale-lu-2024",
 }
-RUNGS: dict[str, str] = {
+SHOWN_RUNGS: dict[str, str] = {
     "ruckig_stop_and_go": "Ruckig, full stop at each waypoint",
     "family": "the spline family's optimum",
     "family_lower": "no spline of the family is faster",
@@ -90,7 +90,7 @@ def table_of_known_times(
     if paper is not None:
         lines += _published(paper, problem)
     lines.append(_swarm(problem.name, rows))
-    for key, what in RUNGS.items():
+    for key, what in SHOWN_RUNGS.items():
         rung = ladder["ladder"].get(key)
         if rung is None:
             continue

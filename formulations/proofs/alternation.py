@@ -8,7 +8,6 @@ from __future__ import annotations
 
 import time
 from collections.abc import Callable
-from enum import StrEnum
 
 import numpy as np
 
@@ -19,6 +18,7 @@ from formulations.problem.arrays import Array
 from formulations.problem.errors import InputError
 from formulations.problem.problem import Problem
 from formulations.proofs.proof import Proof, Prover
+from formulations.proofs.status import BoundStatus
 
 _DIRECT = 0.1  # share of the time limit for an attempt at the final gap, before coarser ones
 _SLICE = 0.02  # s between looks at the clock
@@ -26,15 +26,6 @@ _RESTARTS = 30  # better motions that the proof may find
 _BETTER = 1e-12  # relative; a smaller improvement is rounding
 _LOOK = 9.0  # the proof runs this many times as long as the last NLP, before the NLP runs again
 _FIRST_LOOK = 0.03  # s that stand for that NLP at first
-
-
-class BoundStatus(StrEnum):
-    """How a proof of a family's bound ended."""
-
-    PROVED = "proved"  # to the gap that was asked for
-    TIME_LIMIT = "time limit"
-    UNDECIDED = "undecided"  # the search cannot get closer
-    NOT_APPLICABLE = "not applicable"  # nothing beyond displacement over speed can be proved
 
 
 class Alternation:

@@ -44,7 +44,7 @@ class Effort(NamedTuple):
     aside: bool
 
 
-class Trace(NamedTuple):
+class EventTrace(NamedTuple):
     """Counters and the log of a search, both filled by the compiled code.
 
     counts (N_COUNTS,). Of each of m events: codes (m, 3) event, variable, number of rows; values (m,);
@@ -60,7 +60,7 @@ class Trace(NamedTuple):
 
 @dataclass(frozen=True)
 class Log:
-    """All events of a search, in order; the fields are those of ``Trace``."""
+    """All events of a search, in order; the fields are those of ``EventTrace``."""
 
     codes: Any
     values: Any
@@ -68,7 +68,7 @@ class Log:
     rows: Any
 
 
-def empty_trace(capacity: int, n_variables: int, most_rows: int) -> Trace:
+def empty_trace(capacity: int, n_variables: int, most_rows: int) -> EventTrace:
     """Make counters at zero and room for events.
 
     Parameters
@@ -80,10 +80,10 @@ def empty_trace(capacity: int, n_variables: int, most_rows: int) -> Trace:
 
     Returns
     -------
-    Trace
+    EventTrace
         The empty trace.
     """
-    return Trace(
+    return EventTrace(
         np.zeros(N_COUNTS, np.int64),
         np.zeros((capacity, 3), np.int64),
         np.zeros(capacity),
@@ -111,7 +111,7 @@ def write(trace: Any, event: int, k: int, value: float, box: Any, rows: Any, n_r
 
     Parameters
     ----------
-    trace : Trace
+    trace : EventTrace
         The log.
     event, k : int
         What happened, and to which variable.
@@ -141,7 +141,7 @@ def has_room(trace: Any, n_events: int) -> bool:
 
     Parameters
     ----------
-    trace : Trace
+    trace : EventTrace
         The log.
     n_events : int
         Most events that the next box can cause.

@@ -28,7 +28,7 @@ from formulations.optima.family.optimum import FamilyOptimum, family_optimum
 from formulations.problem.arrays import Array
 from formulations.problem.errors import InputError, NoFeasibleMotion
 from formulations.problem.problem import Problem
-from formulations.proofs.alternation import Alternation, BoundStatus, verified
+from formulations.proofs.alternation import Alternation, verified
 from formulations.proofs.certificate import certificate_of, certificate_of_proof
 from formulations.proofs.displacement import exceeded_time
 from formulations.proofs.domain import data_of
@@ -36,6 +36,7 @@ from formulations.proofs.every_motion.velocity_acceleration import velocity_acce
 from formulations.proofs.four_three_four import bound as four_three_four
 from formulations.proofs.proof import Prover
 from formulations.proofs.quintic import bound as quintic
+from formulations.proofs.status import BoundStatus
 from formulations.proofs.three_five_three import bound as three_five_three
 
 PROVERS: dict[str, Prover] = {

@@ -10,7 +10,7 @@ import numpy as np
 
 from formulations.problem.arrays import Array
 from formulations.problem.problem import Problem
-from formulations.proofs.events import BOXES, EVENTS, Log, Trace, empty_trace
+from formulations.proofs.events import BOXES, EVENTS, EventTrace, Log, empty_trace
 
 NARROW = 1e-11  # logarithmic width below which a box is undecided
 _CAPACITY = 20_000  # events kept before they are moved out of the compiled search
@@ -55,7 +55,7 @@ class ProofSearch:
     n_variables: int
     most_rows: int
     depth: int
-    advance: Callable[[int, int, Trace], tuple[int, bool]]
+    advance: Callable[[int, int, EventTrace], tuple[int, bool]]
     durations: Callable[[int], Array]
     impossible: str = ""
     short: tuple[float, Array] | None = None

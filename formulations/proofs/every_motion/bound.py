@@ -15,7 +15,8 @@ from formulations.problem.arrays import Array
 from formulations.problem.errors import InputError
 from formulations.problem.problem import Problem
 from formulations.proofs.certificate import certificate_of
-from formulations.proofs.every_motion.horizons import BoundStatus, HorizonSearch
+from formulations.proofs.every_motion.horizons import HorizonSearch
+from formulations.proofs.status import BoundStatus
 
 __all__ = ["BoundStatus", "FreeFormBound", "free_form_bound"]
 

@@ -10,7 +10,6 @@ from __future__ import annotations
 
 import time
 from collections.abc import Callable
-from enum import StrEnum
 from typing import Any, NamedTuple
 
 import numpy as np
@@ -37,6 +36,7 @@ from formulations.proofs.every_motion.relaxation.relaxed_problem import RelaxedP
 from formulations.proofs.every_motion.relaxation.rows import Frame
 from formulations.proofs.every_motion.relaxation.tightening import tighten
 from formulations.proofs.rest_to_rest import end_to_end_bound
+from formulations.proofs.status import BoundStatus
 
 _BEYOND = 1e-6  # the horizon is longer than the known motion by this, so that the motion is inside
 _AHEAD = 0.1  # of the bound: how far above it a horizon is at most
@@ -46,16 +46,6 @@ _LOOSER = 1e-2  # durations to begin with are looser, so that rows and not boxes
 _STRETCHES = (2e-7, 1e-6, 1e-5, 1e-4, 1e-3, 1e-2)  # of durations, tried for a motion
 _NEAR = 1e-2  # of the bound: how far above it the horizon of its certificate is at most
 _STALLED = 0.05  # of the way to the horizon: a step that gains less is no progress
-
-
-class BoundStatus(StrEnum):
-    """How the search for a bound ended."""
-
-    PROVED = "proved"  # the gap asked for
-    TIGHT = "tight as it gets"  # narrower boxes would prove no more
-    TIME_LIMIT = "time limit"
-    SIMPLE = "simple bounds only"  # the relaxation does not apply
-    SOLVER_FAILED = "solver failed"
 
 
 class Ending(NamedTuple):

@@ -32,7 +32,7 @@ import numpy as np
 from formulations.problem.arrays import Array
 from formulations.problem.problem import Problem
 from formulations.proofs.domain import LESS, MORE, data_of, duration_domain
-from formulations.proofs.events import Effort, Trace
+from formulations.proofs.events import Effort, EventTrace
 from formulations.proofs.four_three_four.data import BASIS, RateData
 from formulations.proofs.four_three_four.search import SHORT, STACK, branch_and_bound
 from formulations.proofs.proof import NARROW, ProofSearch
@@ -80,7 +80,7 @@ def begin(
         stack_v[0, 1, :, 1:n] = speed[:, None]
         stack_v[0, 0] = -stack_v[0, 1]
 
-    def advance(depth: int, max_boxes: int, trace: Trace) -> tuple[int, bool]:
+    def advance(depth: int, max_boxes: int, trace: EventTrace) -> tuple[int, bool]:
         effort = Effort(max_boxes, narrow, aside)
         return branch_and_bound(stack, stack_v, depth, data, effort, trace)
 

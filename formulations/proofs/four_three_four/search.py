@@ -238,7 +238,7 @@ def branch_and_bound(
         The task.
     effort : Effort
         Number of boxes, and what happens to undecided ones.
-    trace : Trace
+    trace : EventTrace
         Counters and log.
 
     Returns

@@ -31,7 +31,7 @@ from formulations.problem.arrays import Array
 from formulations.problem.problem import Problem
 from formulations.proofs.arithmetic.intervals import down, least_sum, up
 from formulations.proofs.domain import LESS, MORE, data_of, duration_domain
-from formulations.proofs.events import BOXES, Trace
+from formulations.proofs.events import BOXES, EventTrace
 from formulations.proofs.proof import NARROW, ProofSearch
 from formulations.proofs.quintic.chain import CellChain
 from formulations.proofs.quintic.conditions import PieceConditions, Pieces
@@ -78,7 +78,7 @@ def begin(
     """
     search = ChainSearch(problem, L, near, narrow, blur)
 
-    def advance(depth: int, max_boxes: int, trace: Trace) -> tuple[int, bool]:
+    def advance(depth: int, max_boxes: int, trace: EventTrace) -> tuple[int, bool]:
         trace.counts[BOXES] += search.chain.size
         search.step()
         if search.chain.empty:

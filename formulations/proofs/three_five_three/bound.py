@@ -30,7 +30,7 @@ from formulations.compiled import Late
 from formulations.problem.arrays import Array
 from formulations.problem.problem import Problem
 from formulations.proofs.domain import LESS, MORE, ProblemData, data_of, duration_domain
-from formulations.proofs.events import Effort, Trace
+from formulations.proofs.events import Effort, EventTrace
 from formulations.proofs.proof import NARROW, ProofSearch
 from formulations.proofs.three_five_three.data import BASIS, RatioData
 from formulations.proofs.three_five_three.search import MOST_ROWS, STACK, branch_and_bound
@@ -92,7 +92,7 @@ def begin(
                 stack[0, 0, x] = shortest[1] / domain.longest[k] * LESS
                 stack[0, 1, x] = domain.longest[1] / shortest[k] * MORE
 
-    def advance(depth: int, max_boxes: int, trace: Trace) -> tuple[int, bool]:
+    def advance(depth: int, max_boxes: int, trace: EventTrace) -> tuple[int, bool]:
         return _search(stack, depth, data, Effort(max_boxes, narrow, aside), trace)
 
     def durations(depth: int) -> Array:

@@ -157,7 +157,7 @@ def branch_and_bound(stack: Any, depth: int, data: Any, effort: Any, trace: Any)
         The task.
     effort : Effort
         Number of boxes, and what happens to undecided ones.
-    trace : Trace
+    trace : EventTrace
         Counters and log.
 
     Returns

@@ -28,12 +28,12 @@ from formulations import (
     family_optimum,
     load,
 )
-from formulations.proofs.alternation import BoundStatus
 from formulations.proofs.displacement import displacement_bound
 from formulations.proofs.every_motion.velocity_acceleration import velocity_acceleration_bound
 from formulations.proofs.family import PROVERS
 from formulations.proofs.four_three_four import bound as four_three_four
 from formulations.proofs.quintic import bound as quintic
+from formulations.proofs.status import BoundStatus
 from formulations.proofs.three_five_three import bound as three_five_three
 
 

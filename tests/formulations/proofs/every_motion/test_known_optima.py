@@ -11,9 +11,9 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 
 from formulations import free_form_bound
-from formulations.proofs.every_motion.bound import BoundStatus
 from formulations.proofs.every_motion.closed_forms import least_durations
 from formulations.proofs.rest_to_rest import rest_to_rest
+from formulations.proofs.status import BoundStatus
 
 
 @pytest.mark.parametrize(

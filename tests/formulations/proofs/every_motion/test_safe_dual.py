@@ -14,11 +14,11 @@ from scipy.sparse import csr_array
 
 from formulations import Limits, Problem, free_form_bound, load
 from formulations.problem.arrays import Array
-from formulations.proofs.every_motion.bound import BoundStatus
 from formulations.proofs.every_motion.closed_forms import least_durations
 from formulations.proofs.every_motion.relaxation.cuts import Cuts, Kind
 from formulations.proofs.every_motion.relaxation.linear_program import LinearProgram, LPStatus
 from formulations.proofs.every_motion.relaxation.safe_dual import safe_bound
+from formulations.proofs.status import BoundStatus
 
 
 def lagrangian(cost: Array, matrix: Array, upper: Array, box: Array, y: Array) -> Fraction:

@@ -9,8 +9,8 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 
 from formulations import Limits, Problem, check, free_form, free_form_bound
-from formulations.proofs.every_motion.bound import BoundStatus
 from formulations.proofs.rest_to_rest import rest_to_rest
+from formulations.proofs.status import BoundStatus
 
 
 def ordered(problem: Problem, *, time_limit: float = 2.0) -> tuple[float, float]:
