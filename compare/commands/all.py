@@ -17,6 +17,7 @@ from compare.commands.options import CORES, Cases, Codings, Jobs, Out, Swarms, p
 from compare.files import output_folder
 from compare.report.page import render
 from compare.studies import bias, proofs, study
+from compare.studies.centred_functions import FUNCTIONS
 from formulations import CASES, InputError, load
 
 # random 3-5-3 problems, most segments, problems per size: what a proof costs, in the report
@@ -24,7 +25,7 @@ PROOFS = {"default": (40, 5, 1), "full": (1000, 8, 2)}
 # which swarms are drawn to zero: functions, arms, seeds, evaluations
 BIAS: dict[str, tuple[list[str], list[str], int, int]] = {
     "default": (["sphere"], ["sr4c"], 5, 2550),
-    "full": (list(bias.FUNCTIONS), ["sr4c", "ur5", "cobot", "bagging"], 10, 5000),
+    "full": (list(FUNCTIONS), ["sr4c", "ur5", "cobot", "bagging"], 10, 5000),
 }
 
 

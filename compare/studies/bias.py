@@ -22,75 +22,15 @@ from compare.benchmark.objective import Objective, search_box
 from compare.benchmark.provenance import code_digest
 from compare.report.style import BLUE, GREY, ORANGE, PURPLE, VERMILION, styled
 from compare.screen import table
+from compare.studies.centred_functions import DIM, FUNCTIONS, HALF
 from compare.studies.origin_shift import COORDINATES, seen_in
 from compare.studies.study import Call, Study, optima_of
 from formulations import Problem, load
 from formulations.problem.arrays import Array
 from metaheuristics import algorithm, minimise
 
-DIM, HALF = 10, 100.0  # coordinates, half the width of the functions' box
 SHIFT = 0.8  # largest shift, as a share of HALF
 FLOOR_FUNCTION, FLOOR_GAP = 1e-15, 1e-9  # errors below are rounding
-
-
-def sphere(x: Array) -> Array:
-    """Sum of squares.
-
-    Parameters
-    ----------
-    x : Array, shape (n, DIM)
-        Points of the box.
-
-    Returns
-    -------
-    Array, shape (n,)
-        Values; 0 at x = 0.
-    """
-    return np.asarray((x**2).sum(axis=1))
-
-
-def rastrigin(x: Array) -> Array:
-    """A function with many local optima on a grid (Rastrigin 1974), scaled to the box.
-
-    Parameters
-    ----------
-    x : Array, shape (n, DIM)
-        Points of the box.
-
-    Returns
-    -------
-    Array, shape (n,)
-        Values; 0 at x = 0.
-    """
-    z = x * 5.12 / HALF
-    return np.asarray((z**2 - 10 * np.cos(2 * np.pi * z) + 10).sum(axis=1))
-
-
-def ackley(x: Array) -> Array:
-    """A narrow hole in a rough plain (Ackley 1987), scaled to the box.
-
-    Parameters
-    ----------
-    x : Array, shape (n, DIM)
-        Points of the box.
-
-    Returns
-    -------
-    Array, shape (n,)
-        Values; 0 at x = 0.
-    """
-    z = x * 32.0 / HALF
-    root = np.sqrt((z**2).mean(axis=1))
-    cosines = np.cos(2 * np.pi * z).mean(axis=1)
-    # expm1: the sum of four terms would cancel near the optimum
-    return np.asarray(-20 * np.expm1(-0.2 * root) - np.e * np.expm1(cosines - 1))
-
-
-FUNCTIONS: dict[str, Callable[[Array], Array]] = {
-    "sphere": sphere,
-    "rastrigin": rastrigin,
-    "ackley": ackley,
-}
 
 
 Summary = dict[str, dict[str, float | None]]

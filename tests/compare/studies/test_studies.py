@@ -18,6 +18,7 @@ from compare.benchmark.suite import DEFAULT_CONTROLS, FULL_CONTROLS, QUICK_SWARM
 from compare.papers.wang_2025 import ablation, cec2017
 from compare.papers.wang_2025 import joint_1 as table8
 from compare.studies import bias, readings
+from compare.studies.centred_functions import FUNCTIONS
 from compare.studies.origin_shift import COORDINATES, seen_in
 from compare.studies.speed_swarms import costs
 from formulations import InputError, load
@@ -83,7 +84,7 @@ def test_other_coordinates_show_the_same_values(seed: int) -> None:
 
 
 def test_the_functions_have_their_optimum_zero_at_zero() -> None:
-    for f in bias.FUNCTIONS.values():
+    for f in FUNCTIONS.values():
         assert f(np.zeros((1, 10)))[0] == pytest.approx(0.0, abs=1e-12)
         assert (f(np.random.default_rng(0).uniform(-100, 100, (50, 10))) > 0).all()
 
