@@ -63,7 +63,7 @@ def test_a_row_says_what_is_left_of_a_paper() -> None:
     assert (ur5.optimum, ur5.proved, ur5.fastest) == (42.5705, True, 12.97)
     assert ur5.faults == ((IN_SHORT["limits"], 2, True), (IN_SHORT["sum"], 1, True))
     assert (cobot.keeps, cobot.stretch, cobot.faults) == ("prints none; keeps those assumed", None, ())
-    # 003 prints no waypoints: nothing of the made ones may stand beside its total
+    # Lu 2024 prints no waypoints: nothing of the made ones may stand beside its total
     assert (z1.published, z1.keeps) == (11.71, "cannot be judged")
     assert z1.optimum is z1.fastest is z1.slowed is None
 
