@@ -8,7 +8,6 @@ from __future__ import annotations
 
 import csv
 import io
-import math
 from collections.abc import Callable, Iterable, Mapping
 from dataclasses import asdict, dataclass, fields, replace
 from enum import StrEnum
@@ -18,6 +17,7 @@ from typing import Any, NamedTuple, get_type_hints
 
 import numpy as np
 
+from compare.benchmark.cells import cell_text, parser_of
 from formulations import InputError
 from formulations.problem.arrays import Array
 
@@ -303,66 +303,7 @@ def read_csv(path: Path) -> list[Row]:
     return found
 
 
-def cell_text(value: object) -> str:
-    """Return a value of a row as the text of its cell, always one line.
-
-    Parameters
-    ----------
-    value : str, int, float, bool, tuple of float or None
-
-    Returns
-    -------
-    str
-
-    Raises
-    ------
-    ValueError
-        If a number is not finite.
-    """
-    if value is None:
-        return ""
-    if isinstance(value, bool):
-        return "yes" if value else "no"
-    if isinstance(value, tuple):
-        return " ".join(cell_text(part) for part in value)
-    if isinstance(value, float):
-        if not math.isfinite(value):
-            raise ValueError(f"{value!r} is not a finite number")
-        return repr(float(value))
-    # text of a foreign program may hold line ends, or halves of characters that no file can hold
-    text = " ".join(str(value).splitlines())
-    return text.encode("utf-8", "backslashreplace").decode("utf-8")
-
-
 @cache
 def _parsers() -> dict[str, Callable[[str], Any]]:
     """The parser of each column, by the type of its field."""
-    by_type: dict[Any, Callable[[str], Any]] = {
-        str: str,
-        int: int,
-        float: _number,
-        float | None: _optional(_number),
-        bool: _yes_or_no,
-        bool | None: _optional(_yes_or_no),
-        tuple[float, ...]: lambda cell: tuple(_number(part) for part in cell.split()),
-        RowStatus: RowStatus,
-        BoundProof: BoundProof,
-    }
-    return {name: by_type[kind] for name, kind in get_type_hints(Row).items()}
-
-
-def _optional(parse: Callable[[str], Any]) -> Callable[[str], Any]:
-    return lambda cell: None if cell == "" else parse(cell)
-
-
-def _number(cell: str) -> float:
-    value = float(cell)
-    if not math.isfinite(value):
-        raise ValueError(f"{cell!r} is not a finite number")
-    return value
-
-
-def _yes_or_no(cell: str) -> bool:
-    if cell not in ("yes", "no"):
-        raise ValueError(f"{cell!r} is neither yes nor no")
-    return cell == "yes"
+    return {name: parser_of(kind) for name, kind in get_type_hints(Row).items()}
