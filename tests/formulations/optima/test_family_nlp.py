@@ -59,6 +59,7 @@ def test_an_exception_of_the_solver_is_a_status(
     assert np.isfinite(found.seconds)  # the start itself, stretched
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("family", list(FAMILIES))
 @given(
     problem=problems(reach=(-5.0, 1.0), position=True),
