@@ -1,4 +1,4 @@
-"""A robot from its files: the tree of the URDF, the joints chosen, the limits laid over, the factors on them."""
+"""A robot from its files: the tree of the URDF, the joints chosen, limits laid over, factors on them."""
 
 from __future__ import annotations
 

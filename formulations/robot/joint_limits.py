@@ -6,7 +6,8 @@ What is decided here, as MoveIt decides it unless said otherwise:
 - ``max_x`` alone sets a limit. ``has_x_limits: false`` takes it away, and it is then missing, unless the caller
   says that the joint has none. ``has_x_limits: true`` without ``max_x`` keeps what is known.
 - Limits are the same in both directions here, so of ``max_acceleration`` and ``max_deceleration`` (of either
-  sign, as Pilz writes it negative) the smaller counts for both. MoveIt's time parametrisations ignore the latter.
+  sign, as Pilz writes it negative) the smaller counts for both. MoveIt's time parametrisations ignore the
+  latter.
 - Position limits hold for a continuous joint too, where MoveIt drops them; soft limits narrow the position.
 - Effort, ``k_position``, ``k_velocity`` and ``angle_wraparound`` are checked and not used.
 - An unknown key is an error at every depth, but for the other parameters of a ROS node.

@@ -244,7 +244,7 @@ def _ordered(file: str, links: dict[str, Element], joints: dict[str, Element]) -
 def _read_by_library(
     file: str, links: dict[str, Element], joints: dict[str, Element]
 ) -> dict[str, Any]:
-    """yourdfpy's joints by name, read from a copy of the text without anything but links and joints."""
+    """Yourdfpy's joints by name, read from a copy of the text without anything but links and joints."""
     try:
         import yourdfpy
     except ImportError:

@@ -9,13 +9,13 @@ from __future__ import annotations
 import math
 from collections.abc import Iterable
 from dataclasses import dataclass
-from typing import NamedTuple, TypeAlias, Union
+from typing import NamedTuple, TypeAlias
 
 from formulations.problem.errors import InputError
 from formulations.robot.text.files import known_names, shown
 
 Scalar: TypeAlias = str | float | bool | None
-Value: TypeAlias = Union[dict[str, "Node"], list["Node"], Scalar]
+Value: TypeAlias = dict[str, "Node"] | list["Node"] | Scalar
 
 LARGEST_NUMBER = 1e9  # nothing that a robot does is beyond; guards all that computes with it
 MOST_DEPTH = 32  # levels of a file that is read

@@ -67,7 +67,7 @@ def parse_xml(text: str, file: str, *, root: str) -> Element:
         if "xacro" in (error.msg or ""):
             raise InputError(f"{file}: {_XACRO.format(file=file)}") from None
         line = error.lineno or 1
-        raise InputError(f"{file}: line {line}: not valid XML: {shown_reason(error.msg)}") from None
+        raise InputError(f"{file}: line {line}: not valid XML: {one_line(error.msg)}") from None
     except (ValueError, RecursionError):
         raise InputError(f"{file}: not valid XML") from None
     if any("xacro" in (namespace_of(element) or "") for element in found.iter()):
@@ -79,7 +79,7 @@ def parse_xml(text: str, file: str, *, root: str) -> Element:
     return found
 
 
-def shown_reason(reason: str | None) -> str:
+def one_line(reason: str | None) -> str:
     """The first part of a parser's own message, in one short line.
 
     Parameters
