@@ -5,6 +5,7 @@ from __future__ import annotations
 from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import replace
 from pathlib import Path
+from typing import Any
 
 import numpy as np
 
@@ -146,14 +147,14 @@ def _chosen(tree: Urdf, joints: Sequence[str] | None) -> tuple[str, ...]:
             raise InputError(
                 f"joints: {tree.file} has no joint {shown(name)}; {known_names(str(name), moving)}"
             )
-        joint: UrdfJoint = named[name]
-        if joint.joint is None:
+        chosen: UrdfJoint = named[name]
+        if chosen.joint is None:
             raise InputError(
-                f"joints: joint {shown(name)} is {joint.type}; it does not move along one axis"
+                f"joints: joint {shown(name)} is {chosen.type}; it does not move along one axis"
             )
-        if joint.mimic is not None:
+        if chosen.mimic is not None:
             raise InputError(
-                f"joints: joint {shown(name)} follows joint {shown(joint.mimic[0])} and cannot be moved alone"
+                f"joints: joint {shown(name)} follows joint {shown(chosen.mimic[0])} and cannot be moved alone"
             )
         if name in joints[:index]:
             raise InputError(f"joints: joint {shown(name)} is given twice")
@@ -174,7 +175,7 @@ def _mimics(tree: Urdf, in_force: Mapping[str, Joint]) -> list[Mimic]:
 
 def _in_force(joint: Joint, factors: Mapping[str, float], free: Sequence[str]) -> Joint:
     """A joint with scaled limits; what may be missing is infinite."""
-    changes: dict[str, object] = {}
+    changes: dict[str, Any] = {}
     for quantity, factor in factors.items():
         value = getattr(joint, quantity)
         if value is not None:
@@ -183,7 +184,7 @@ def _in_force(joint: Joint, factors: Mapping[str, float], free: Sequence[str]) -
             changes[quantity] = np.inf
     if joint.position is None and "position" in free:
         changes["position"] = UNLIMITED
-    return replace(joint, **changes)  # type: ignore[arg-type]  # by name
+    return replace(joint, **changes)
 
 
 def _factor(key: str, given: float | None, defaults: Sequence[float | None]) -> float:

@@ -17,6 +17,7 @@ from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, replace
+from typing import Any
 
 from formulations.problem.errors import InputError
 from formulations.robot.joints import UNLIMITED, Joint, JointKind
@@ -236,7 +237,7 @@ def _over(joint: Joint, found: JointEntry) -> Joint:
             raise entry.error(
                 f"joint {shown(joint.name)} is prismatic; its limits are in m, not in degrees"
             )
-    changes: dict[str, float | None] = {}
+    changes: dict[str, Any] = {}
     removed = set(joint.removed)
     for name in ("velocity", "acceleration", "jerk"):
         if not _in_force(values, name):
@@ -254,7 +255,7 @@ def _over(joint: Joint, found: JointEntry) -> Joint:
         removed.add("position")
     else:
         position = _narrowed(joint, found)
-    return replace(joint, **changes, position=position, removed=frozenset(removed))  # type: ignore[arg-type]
+    return replace(joint, **changes, position=position, removed=frozenset(removed))
 
 
 def _narrowed(joint: Joint, found: JointEntry) -> tuple[float, float] | None:

@@ -8,6 +8,7 @@ from __future__ import annotations
 import math
 from dataclasses import dataclass, field, replace
 from enum import StrEnum
+from typing import Any
 
 
 class JointKind(StrEnum):
@@ -100,7 +101,7 @@ def limited_by(leader: Joint, follower: Mimic) -> Joint:
     m = follower.multiplier
     if m == 0.0:
         return leader
-    changes: dict[str, float | tuple[float, float]] = {}
+    changes: dict[str, Any] = {}
     for name in ("velocity", "acceleration", "jerk"):
         own, others = getattr(leader, name), getattr(follower.joint, name)
         if own is not None and others is not None:
@@ -108,7 +109,7 @@ def limited_by(leader: Joint, follower: Mimic) -> Joint:
     if leader.position is not None and follower.joint.position is not None:
         ends = sorted((end - follower.offset) / m for end in follower.joint.position)
         changes["position"] = (max(leader.position[0], ends[0]), min(leader.position[1], ends[1]))
-    return replace(leader, **changes)  # type: ignore[arg-type]  # by name
+    return replace(leader, **changes)
 
 
 def missing_limits(joints: tuple[Joint, ...]) -> str | None:

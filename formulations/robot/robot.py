@@ -10,6 +10,7 @@ from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import dataclass, field, replace
 from functools import cached_property
 from pathlib import Path
+from typing import Any
 
 import numpy as np
 from numpy.typing import ArrayLike
@@ -205,12 +206,12 @@ class Robot:
         return f"{self.name}: {self.dof} joints ({', '.join(self.names)}), {self.base} to {self.tip}"
 
 
-def _limit(quantity: str, name: str, value: object) -> object:
+def _limit(quantity: str, name: str, value: Any) -> Any:
     """A limit that a caller gives, checked."""
     where = f"with_limits: {quantity} of joint {shown(name)}"
     if quantity == "position":
         try:
-            low, high = (float(end) for end in value)  # type: ignore[attr-defined]
+            low, high = (float(end) for end in value)
         except (TypeError, ValueError):
             raise InputError(f"{where}: expected (lowest, highest), got {shown(value)}") from None
         if not low < high:

@@ -244,7 +244,7 @@ def _ordered(file: str, links: dict[str, Element], joints: dict[str, Element]) -
 def _read_by_library(
     file: str, links: dict[str, Element], joints: dict[str, Element]
 ) -> dict[str, Any]:
-    """Yourdfpy's joints by name, read from a copy of the text without anything but links and joints."""
+    """The joints of yourdfpy by name, read from a copy of the text without anything but links and joints."""
     try:
         import yourdfpy
     except ImportError:
@@ -314,7 +314,7 @@ def _limits(file: str, element: Element, read: Any) -> Joint:
             found[key] = value or None
     kind = JointKind(read.type)
     position = UNLIMITED if kind is JointKind.CONTINUOUS else _interval(file, element, read, what)
-    return Joint(read.name, kind, **found, position=position)
+    return Joint(read.name, kind, found["velocity"], found["acceleration"], found["jerk"], position)
 
 
 def _interval(file: str, element: Element, read: Any, what: str) -> tuple[float, float] | None:

@@ -63,7 +63,7 @@ def parse_table(text: str, file: str) -> Table:
     InputError
         The text is not CSV, has no row of numbers, or too many.
     """
-    rows = []
+    rows: list[tuple[int, list[str]]] = []
     for line, cells in _cells(text, file):
         if len(rows) > MOST_WAYPOINTS:
             raise InputError(f"{file}: more than {MOST_WAYPOINTS} rows; take fewer points of the path")
