@@ -16,6 +16,7 @@ from typing import Any
 
 from formulations.problem.errors import InputError
 from formulations.robot.joints import UNLIMITED, Joint, JointKind
+from formulations.robot.text.entry import LARGEST_NUMBER
 from formulations.robot.text.files import known_names, shown
 from formulations.robot.text.xml_tree import Element, attribute, number, numbers, parse_xml, place
 
@@ -195,9 +196,12 @@ def _check(
         for key in ("xyz", "rpy"):
             if tag in ("origin", "axis"):
                 numbers(file, inner, key, where, 3)
-        for key in ("velocity", "acceleration", "jerk", "effort", "lower", "upper"):
+        for key in ("velocity", "acceleration", "jerk"):
             if tag == "limit":
                 number(file, inner, key, where)
+        for key in ("lower", "upper"):
+            if tag == "limit" and kind != JointKind.CONTINUOUS:
+                number(file, inner, key, where, largest=math.inf)
         for key in ("soft_lower_limit", "soft_upper_limit", "multiplier", "offset"):
             if tag in ("mimic", "safety_controller"):
                 number(file, inner, key, where)
@@ -272,6 +276,8 @@ def _read_by_library(
                     "multiplier",
                     "offset",
                 )
+                if element.get("type").strip() == JointKind.CONTINUOUS:
+                    keys = tuple(key for key in keys if key not in ("lower", "upper"))
                 kept = {key: inner.get(key).strip() for key in keys if inner.get(key) is not None}
                 etree.SubElement(copy, tag, kept)
     model = yourdfpy.URDF.load(
@@ -318,11 +324,15 @@ def _limits(file: str, element: Element, read: Any) -> Joint:
 
 
 def _interval(file: str, element: Element, read: Any, what: str) -> tuple[float, float] | None:
-    """Lowest and highest position; None where the URDF leaves either out."""
+    """Lowest and highest position; None where the URDF leaves either out, or they are equal for want of both."""
     limit = element.find("limit")
     if limit is None or read.limit.lower is None or read.limit.upper is None:
         return None
     low, high = float(read.limit.lower), float(read.limit.upper)
+    if low == high:
+        return None
+    low = -math.inf if low <= -LARGEST_NUMBER else low  # Gazebo writes 1e16 for want of a limit
+    high = math.inf if high >= LARGEST_NUMBER else high
     safety = element.find("safety_controller")
     if safety is not None:
         where = f"joint {shown(read.name)}: <safety_controller>"

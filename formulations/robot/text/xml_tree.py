@@ -161,7 +161,15 @@ def attribute(file: str, element: Element, name: str, what: str) -> str:
     return str(value)
 
 
-def numbers(file: str, element: Element, name: str, what: str, count: int) -> list[float] | None:
+def numbers(
+    file: str,
+    element: Element,
+    name: str,
+    what: str,
+    count: int,
+    *,
+    largest: float = LARGEST_NUMBER,
+) -> list[float] | None:
     """Numbers of an attribute.
 
     Parameters
@@ -176,6 +184,8 @@ def numbers(file: str, element: Element, name: str, what: str, count: int) -> li
         The element as a message names it.
     count : int
         How many numbers it holds, with spaces between.
+    largest : float, optional
+        The largest size that is read.
 
     Returns
     -------
@@ -210,7 +220,9 @@ def numbers(file: str, element: Element, name: str, what: str, count: int) -> li
     return values
 
 
-def number(file: str, element: Element, name: str, what: str) -> float | None:
+def number(
+    file: str, element: Element, name: str, what: str, *, largest: float = LARGEST_NUMBER
+) -> float | None:
     """One number of an attribute; as ``numbers``.
 
     Parameters
@@ -223,6 +235,8 @@ def number(file: str, element: Element, name: str, what: str) -> float | None:
         The attribute.
     what : str
         The element as a message names it.
+    largest : float, optional
+        The largest size that is read.
 
     Returns
     -------
@@ -234,5 +248,5 @@ def number(file: str, element: Element, name: str, what: str) -> float | None:
     InputError
         The attribute holds anything else.
     """
-    found = numbers(file, element, name, what, 1)
+    found = numbers(file, element, name, what, 1, largest=largest)
     return None if found is None else found[0]
