@@ -212,10 +212,8 @@ def numbers(
     for part, value in zip(parts, found, strict=True):
         if value is None or not math.isfinite(value):
             raise InputError(f"{where}: {shown(part)} is not a finite number")
-        if abs(value) > LARGEST_NUMBER:
-            raise InputError(
-                f"{where}: {value:g} is beyond {LARGEST_NUMBER:g}, the largest that is read"
-            )
+        if abs(value) > largest:
+            raise InputError(f"{where}: {value:g} is beyond {largest:g}, the largest that is read")
         values.append(value)
     return values
 

@@ -62,7 +62,8 @@ def test_every_urdf_of_example_robot_data_as_the_test_itself_parses_it() -> None
                 assert limit is not None
                 low, high = (float(limit.get(end, "nan")) for end in ("lower", "upper"))
                 if low < high:  # false where either is left out
-                    assert mine.joint.position == (low, high) if high < 1e16 else (-math.inf, math.inf)
+                    expected = (low, high) if high < 1e16 else (-math.inf, math.inf)
+                    assert mine.joint.position == expected
                 else:
                     assert mine.joint.position is None
     assert read >= 60
