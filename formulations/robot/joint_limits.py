@@ -122,23 +122,31 @@ def parse_limits(text: str, file: str) -> LimitsFile:
 
 def _tables(top: Entry) -> list[Entry]:
     """The tables that hold ``joint_limits`` or factors."""
-    entries = top.entries()
-    if not any(entry.is_mapping and _PARAMETERS in entry.entries() for entry in entries.values()):
+    nodes = _nodes(top, 3)
+    if not nodes:
         return [_checked(top, outermost=True)]
     found = []
-    for node in entries.values():
-        parameters = node.entries((_PARAMETERS,))[_PARAMETERS]
+    for parameters in nodes:
         for name, entry in parameters.entries().items():
             if name == _WRAPPER:
                 found.append(_checked(entry))
-            elif name in _TOP:
-                found.append(parameters)
-                break
-            elif nearest_of(name, (*_TOP, _WRAPPER)) is not None:
+            elif name not in _TOP and nearest_of(name, (*_TOP, _WRAPPER), alike=0.85) is not None:
                 raise entry.error(f"unknown key; {known_names(name, (*_TOP, _WRAPPER))}")
+        if not set(_TOP).isdisjoint(parameters.entries()):
+            found.append(parameters)
     if not found:
         raise InputError(f"{top.file}: no node has joint_limits among its {_PARAMETERS}")
     return found
+
+
+def _nodes(entry: Entry, levels: int) -> list[Entry]:
+    """The parameters of all ROS nodes of a file, in name spaces too."""
+    if not entry.is_mapping or levels == 0:
+        return []
+    entries = entry.entries()
+    if _PARAMETERS in entries:
+        return [entry.entries((_PARAMETERS,))[_PARAMETERS]]
+    return [node for inner in entries.values() for node in _nodes(inner, levels - 1)]
 
 
 def _checked(table: Entry, *, outermost: bool = False) -> Entry:

@@ -142,7 +142,7 @@ def shown(value: object) -> str:
     return text if len(text) <= _SHOWN else text[: _SHOWN - 3] + "..."
 
 
-def nearest_of(name: str, known: Iterable[str]) -> str | None:
+def nearest_of(name: str, known: Iterable[str], *, alike: float = 0.6) -> str | None:
     """Find the known name that a mistyped one was probably meant to be.
 
     Parameters
@@ -151,6 +151,8 @@ def nearest_of(name: str, known: Iterable[str]) -> str | None:
         A name that is not known.
     known : iterable of str
         The names that are.
+    alike : float, optional
+        Least similarity, from 0 to 1.
 
     Returns
     -------
@@ -158,7 +160,7 @@ def nearest_of(name: str, known: Iterable[str]) -> str | None:
         None where no known name is alike.
     """
     names = {entry[:_COMPARED].lower(): entry for entry in reversed(list(known))}
-    found = difflib.get_close_matches(name[:_COMPARED].lower(), names, n=1, cutoff=0.6)
+    found = difflib.get_close_matches(name[:_COMPARED].lower(), names, n=1, cutoff=alike)
     return names[found[0]] if found else None
 
 
