@@ -24,7 +24,7 @@ from formulations.robot.text.files import shown
 
 REACHED = 1e-6  # m that a solution may miss a position by
 TURNED = 1e-4  # rad that it may miss an orientation by: an arm of four joints cannot do 3.1416 exactly
-MOST_POSES = 10_000
+MOST_POSES = 2000
 
 _STARTS = 24
 _STEPS = 80
@@ -106,7 +106,7 @@ class _Search:
             raise self._refusal(pose, near)
         found = np.clip(self._turned(found, near), self.low, self.high)
         order = np.argsort(np.linalg.norm(found - near, axis=1), kind="stable")
-        best = [self._pulled(pose, found[k], near) for k in order[:4]]
+        best = [self._pulled(pose, found[k], near) for k in order[:2]]
         return min(best, key=lambda joints: float(np.linalg.norm(joints - near)))
 
     def _turned(self, joints: Array, near: Array) -> Array:
@@ -120,16 +120,16 @@ class _Search:
     def _pulled(self, pose: Array, joints: Array, near: Array) -> Array:
         """Move a solution along its self-motion towards ``near`` within the limits, where it has one."""
         share = 1.0
-        for _ in range(60):
+        for _ in range(30):
             _, jacobian = self.chain.pose_and_jacobian(joints[None])
             _, sizes, Vt = np.linalg.svd(jacobian[0])
             rank = int((sizes > 1e-6 * max(1.0, sizes[0])).sum())
             still = Vt[rank:]  # motions of the joints that leave the pose as it is
             step = still.T @ (still @ (near - joints))
-            if len(still) == 0 or np.abs(step).max() < 1e-7 or share < 1e-3:
+            if len(still) == 0 or np.abs(step).max() < 1e-6 or share < 1e-3:
                 break
             start = np.clip(joints + share * step, self.low, self.high)[None]
-            moved, error = _descend(self.chain, pose, start, self.low, self.high)
+            moved, error = _descend(self.chain, pose, start, self.low, self.high, damping=1e-9)
             closer = np.linalg.norm(moved[0] - near) < np.linalg.norm(joints - near)
             if _is_solved(error)[0] and closer:
                 joints = moved[0]
@@ -178,25 +178,34 @@ def _is_solved(error: Array) -> Array:
 
 
 def _descend(
-    chain: LinkChain, pose: Array, starts: Array, low: Array, high: Array, *, rows: int = 6
+    chain: LinkChain,
+    pose: Array,
+    starts: Array,
+    low: Array,
+    high: Array,
+    *,
+    rows: int = 6,
+    damping: float = 1e-3,
 ) -> tuple[Array, Array]:
     """Damped Newton steps from all starts (n, dof) at once, within limits.
 
-    rows: 6 for the whole pose, 3 for its position alone. Returns joint positions and errors (n, 6).
+    rows: 6 for the whole pose, 3 for its position alone. damping: that of the first step. Returns joint
+    positions and errors (n, 6).
     """
     q = np.clip(starts, low, high)
     reached, jacobian = chain.pose_and_jacobian(q)
     error = _errors(pose, reached)
-    damping = np.full(len(q), 1e-3)
+    damped = np.full(len(q), damping)
     for _ in range(_STEPS):
         J, e = jacobian[:, :rows], error[:, :rows]
         slope = np.einsum("nij,ni->nj", J, e)
         held = ((q <= low) & (slope < 0.0)) | ((q >= high) & (slope > 0.0))
         J = np.where(held[:, None], 0.0, J)
         slope = np.where(held, 0.0, slope)
-        if np.abs(slope).max() < 1e-14:
+        exact = np.linalg.norm(e, axis=1) < 1e-13
+        if ((np.abs(slope).max(axis=1) < 1e-14) | exact).all():
             break
-        normal = np.swapaxes(J, 1, 2) @ J + damping[:, None, None] * np.eye(chain.dof)
+        normal = np.swapaxes(J, 1, 2) @ J + damped[:, None, None] * np.eye(chain.dof)
         step = np.linalg.solve(normal, slope[:, :, None])[:, :, 0]
         step *= np.minimum(1.0, 0.5 / np.maximum(np.abs(step).max(axis=1, keepdims=True), 1e-300))
         trial = np.clip(q + step, low, high)
@@ -206,8 +215,8 @@ def _descend(
         q = np.where(better[:, None], trial, q)
         error = np.where(better[:, None], trial_error, error)
         jacobian = np.where(better[:, None, None], trial_jacobian, jacobian)
-        damping = np.clip(np.where(better, damping / 5.0, damping * 4.0), 1e-12, 1e6)
-        if not better.any() and damping.min() >= 1e5:
+        damped = np.clip(np.where(better, damped / 5.0, damped * 4.0), 1e-10, 1e6)
+        if not better.any() and damped[~exact].min() >= 1e3:
             break
     return q, error
 

@@ -63,11 +63,15 @@ class Step:
         if self.prismatic:
             pose[:, :3, 3] = q[:, None] * self.axis
             return pose
-        x, y, z = self.axis  # Rodrigues: I + sin q K + (1 - cos q) K^2
-        K = np.array([[0.0, -z, y], [z, 0.0, -x], [-y, x, 0.0]])
-        sine, rest = np.sin(q)[:, None, None], (1.0 - np.cos(q))[:, None, None]
-        pose[:, :3, :3] = np.eye(3) + sine * K + rest * (K @ K)
+        K, square = self._turns  # Rodrigues: I + sin q K + (1 - cos q) K^2
+        pose[:, :3, :3] += np.sin(q)[:, None, None] * K + (1.0 - np.cos(q))[:, None, None] * square
         return pose
+
+    @cached_property
+    def _turns(self) -> tuple[Array, Array]:
+        x, y, z = self.axis
+        K = np.array([[0.0, -z, y], [z, 0.0, -x], [-y, x, 0.0]])
+        return K, K @ K
 
 
 @dataclass(frozen=True, eq=False)
@@ -147,7 +151,10 @@ class LinkChain:
             if step.prismatic:
                 jacobian[:, :3, step.variable] += step.factor * axis
             else:
-                jacobian[:, :3, step.variable] += step.factor * np.cross(axis, pose[:, :3, 3] - origin)
+                (x, y, z), (a, b, c) = (pose[:, :3, 3] - origin).T, axis.T
+                jacobian[:, 0, step.variable] += step.factor * (b * z - c * y)
+                jacobian[:, 1, step.variable] += step.factor * (c * x - a * z)
+                jacobian[:, 2, step.variable] += step.factor * (a * y - b * x)
                 jacobian[:, 3:, step.variable] += step.factor * axis
         return np.asarray(pose), jacobian
 

@@ -54,6 +54,7 @@ def test_a_small_step_stays_on_the_branch(name: str) -> None:
         assert np.linalg.norm(found - start) <= np.linalg.norm(aside - start) + 1e-6
 
 
+@pytest.mark.slow
 def test_the_nearest_branch_of_ur5_among_all_that_a_search_finds() -> None:
     robot = _robot("ur5")
     rng = np.random.default_rng(5)
