@@ -24,8 +24,9 @@ from formulations.robot.joints import UNLIMITED, Joint, JointKind
 from formulations.robot.text.entry import Entry
 from formulations.robot.text.files import known_names, nearest_of, shown
 from formulations.robot.text.trees import parse_yaml
+from formulations.robot.urdf import MOST_JOINTS
 
-LARGEST_LIMITS = 5_000_000  # bytes
+LARGEST_LIMITS = 2_000_000  # bytes
 SMALLEST_LIMIT = 1e-9  # rad/s and the like: less is no limit that a motion can be planned with
 
 _SWITCHES = tuple(
@@ -108,7 +109,10 @@ def parse_limits(text: str, file: str) -> LimitsFile:
                 _same(factors, name, entry)
                 factors[name] = entry
             elif name == "joint_limits":
-                for joint, limits in entry.entries().items():
+                given = entry.entries()
+                if len(given) > MOST_JOINTS:
+                    raise entry.error(f"{len(given)} joints; at most {MOST_JOINTS} are read")
+                for joint, limits in given.items():
                     found = JointEntry(limits, limits.entries(_KEYS))
                     _check(joint, found)
                     if joint in joints:

@@ -19,6 +19,7 @@ Value: TypeAlias = dict[str, "Node"] | list["Node"] | Scalar
 
 LARGEST_NUMBER = 1e9  # nothing that a robot does is beyond; guards all that computes with it
 MOST_DEPTH = 32  # levels of a file that is read
+MOST_KEYS = 5000  # keys of one mapping
 MOST_NODES = 3_000_000  # values of a file that is read
 
 
@@ -78,6 +79,22 @@ class Entry:
     def is_list(self) -> bool:
         """Whether the value is a list."""
         return isinstance(self.node.value, list)
+
+    def has(self, *keys: str) -> bool:
+        """Whether the value is a mapping with one of these keys or more.
+
+        Parameters
+        ----------
+        *keys : str
+            Keys to look for.
+
+        Returns
+        -------
+        bool
+            False for what is no mapping.
+        """
+        value = self.node.value
+        return isinstance(value, dict) and any(key in value for key in keys)
 
     def child(self, key: str | int, node: Node) -> Entry:
         """The entry of a value inside this one.

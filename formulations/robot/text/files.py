@@ -56,6 +56,8 @@ def read_bytes(path: str | Path, *, largest: int) -> bytes:
             raise InputError(f"{path}: {mode.st_size} bytes; at most {largest} are read")
         with open(path, "rb") as stream:
             data = stream.read(largest + 1)
+    except InputError:
+        raise
     except FileNotFoundError:
         raise InputError(f"{path}: no such file") from None
     except OSError as error:

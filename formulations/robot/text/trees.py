@@ -14,7 +14,7 @@ import math
 from typing import Any, NoReturn
 
 from formulations.problem.errors import InputError
-from formulations.robot.text.entry import MOST_DEPTH, MOST_NODES, Entry, Node, Scalar
+from formulations.robot.text.entry import MOST_DEPTH, MOST_KEYS, MOST_NODES, Entry, Node, Scalar
 from formulations.robot.text.files import number_of, shown
 
 _WORDS: dict[str, bool | None] = {
@@ -91,6 +91,8 @@ def parse_json(text: str, file: str) -> Entry:
     """
 
     def unique(pairs: list[tuple[str, Any]]) -> dict[str, Any]:
+        if len(pairs) > MOST_KEYS:
+            raise InputError(f"{file}: {len(pairs)} keys in one place; at most {MOST_KEYS} are read")
         found = dict(pairs)
         if len(found) < len(pairs):
             keys = [key for key, _ in pairs]
@@ -158,6 +160,8 @@ class _Builder:
             key = event.value
             if key in self.open[-1][0]:
                 self._fail(event, f"key {shown(key)} is given twice")
+            if len(self.open[-1][0]) >= MOST_KEYS:
+                self._fail(event, f"more than {MOST_KEYS} keys in one place")
             if key == "<<":
                 self._fail(event, "merge keys << are not read; write the values")
             self.open[-1][2].append(key)

@@ -19,6 +19,7 @@ from formulations.robot.text.entry import LARGEST_NUMBER
 from formulations.robot.text.files import known_names, number_of, shown
 
 MOST_WAYPOINTS = 100_000
+MOST_COLUMNS = 1000
 
 _PREFIX = "position_"
 _DECIMAL_COMMA = re.compile(r"\s*[-+]?\d+,\d+\s*", re.ASCII)
@@ -102,6 +103,10 @@ def _cells(text: str, file: str) -> Iterator[tuple[int, list[str]]]:
         cells = [cell.strip() for cell in cells]
         if separator == ";":
             cells = [c.replace(",", ".") if _DECIMAL_COMMA.fullmatch(c) else c for c in cells]
+        if len(cells) > MOST_COLUMNS:
+            raise InputError(
+                f"{file}: line {number}: {len(cells)} columns; at most {MOST_COLUMNS} are read"
+            )
         if any(cells):
             yield number, cells
 

@@ -116,9 +116,9 @@ def _read(data: bytes, file: str, robot: Robot, unit: str, length: str) -> Array
         others = [] if robot.urdf is None else [joint.name for joint in robot.urdf.joints]
         return joint_columns(table, robot.names, others)
     top: Entry = (parse_json if file.lower().endswith(".json") else parse_yaml)(text, file)
-    if not top.is_list and "poses" in top.entries():
+    if top.has("poses"):
         return poses_of_entry(top, unit, length)
-    if top.is_list or any(key in top.entries() for key in (*MESSAGE, *WRAPPERS)):
+    if top.is_list or top.has(*MESSAGE, *WRAPPERS):
         return trajectory_positions(top, robot.names)
     key = next(iter(top.entries()), "")
     raise InputError(

@@ -99,10 +99,8 @@ def _unwrapped(top: Entry) -> Entry:
             if len(elements) != 1:
                 raise current.error(f"{len(elements)} trajectories; one is read")
             current = elements[0]
-        entries = current.entries()
-        inner = next((key for key in WRAPPERS if key in entries), None)
+        inner = next((key for key in WRAPPERS if current.has(key)), None)
         if inner is None:
             break
-        current.entries((inner, *_BESIDE))
-        current = entries[inner]
+        current = current.entries((inner, *_BESIDE))[inner]
     return current
