@@ -94,7 +94,7 @@ def parse_waypoints(
     InputError
         One line.
     """
-    found = _read(data, file, robot, unit, length)
+    found = positions_or_poses(data, file, robot, unit, length)
     waypoints = (
         solve_poses(found, file, robot)
         if isinstance(found, Poses)
@@ -106,8 +106,32 @@ def parse_waypoints(
     return waypoints
 
 
-def _read(data: bytes, file: str, robot: Robot, unit: str, length: str) -> Array | Poses:
-    """Joint positions as the file has them, or poses."""
+def positions_or_poses(
+    data: bytes, file: str, robot: Robot, unit: str = "rad", length: str = "m"
+) -> Array | Poses:
+    """Read a file without solving or checking positions: the first half of ``parse_waypoints``.
+
+    Parameters
+    ----------
+    data : bytes
+        The file.
+    file : str
+        Its name: the suffix says the format.
+    robot : Robot
+        Whose waypoints they are.
+    unit, length : str, optional
+        Units of the poses in a file that names none.
+
+    Returns
+    -------
+    Array, shape (n_waypoints, dof), or Poses
+        Joint positions in the units of the file, or poses in SI units.
+
+    Raises
+    ------
+    InputError
+        One line.
+    """
     text = decode(data, file)
     if Path(file).suffix.lower() in (".csv", ".txt"):
         table = parse_table(text, file)
