@@ -324,7 +324,7 @@ def _limits(file: str, element: Element, read: Any) -> Joint:
 
 
 def _interval(file: str, element: Element, read: Any, what: str) -> tuple[float, float] | None:
-    """Lowest and highest position; None where the URDF leaves either out, or they are equal for want of both."""
+    """Lowest and highest position; None where the URDF leaves one out or has them equal."""
     limit = element.find("limit")
     if limit is None or read.limit.lower is None or read.limit.upper is None:
         return None

@@ -47,8 +47,11 @@ def _file(draw: st.DrawFn) -> tuple[dict[str, dict[str, float]], str]:
     lines = ["joint_limits:"]
     for name, values in limits.items():
         rows = [f"{key}: {spell(value)}" for key, value in values.items()]
-        rows += [f"has_{key[4:]}_limits: {draw(st.sampled_from(['true', 'True', 'yes']))}"
-                 for key in values if draw(st.booleans()) and "position" not in key]  # fmt: skip
+        rows += [
+            f"has_{key[4:]}_limits: {draw(st.sampled_from(['true', 'True', 'yes']))}"
+            for key in values
+            if draw(st.booleans()) and "position" not in key
+        ]
         rows = draw(st.permutations(rows))
         shown = f"'{name}'" if style == "quoted" else name
         if style == "flow":
@@ -76,12 +79,20 @@ def test_what_is_written_is_what_is_read(case: tuple[dict[str, dict[str, float]]
 
 
 @given(
-    velocity=powers_of_ten(-2, 0), acceleration=powers_of_ten(-2, 0), jerk=powers_of_ten(-2, 0),
-    default=powers_of_ten(-2, 0), given_too=st.booleans(),
-)  # fmt: skip
+    velocity=powers_of_ten(-2, 0),
+    acceleration=powers_of_ten(-2, 0),
+    jerk=powers_of_ten(-2, 0),
+    default=powers_of_ten(-2, 0),
+    given_too=st.booleans(),
+)
 def test_scaling_factors_multiply_and_an_argument_replaces_the_default_of_the_file(
-    tmp_path_factory: pytest.TempPathFactory, velocity: float, acceleration: float, jerk: float, default: float, given_too: bool
-) -> None:  # fmt: skip
+    tmp_path_factory: pytest.TempPathFactory,
+    velocity: float,
+    acceleration: float,
+    jerk: float,
+    default: float,
+    given_too: bool,
+) -> None:
     folder = tmp_path_factory.mktemp("scaled")
     arm = written(folder, "arm.urdf", planar(1.0, 0.5))
     limits = written(
@@ -123,10 +134,18 @@ def test_scaling_factors_multiply_and_an_argument_replaces_the_default_of_the_fi
         (KNOWN, "angle_wraparound: false", {}),
         (KNOWN, "max_velocity: !degrees 90", {"velocity": math.pi / 2}),
         (KNOWN, "max_velocity: !radians 2", {"velocity": 2.0}),
-        (replace(KNOWN, kind=JointKind.CONTINUOUS, position=UNLIMITED), "has_position_limits: false", {"position": UNLIMITED}),
-        (replace(KNOWN, kind=JointKind.CONTINUOUS, position=UNLIMITED), "min_position: -6, max_position: 6", {"position": (-6.0, 6.0)}),
+        (
+            replace(KNOWN, kind=JointKind.CONTINUOUS, position=UNLIMITED),
+            "has_position_limits: false",
+            {"position": UNLIMITED},
+        ),
+        (
+            replace(KNOWN, kind=JointKind.CONTINUOUS, position=UNLIMITED),
+            "min_position: -6, max_position: 6",
+            {"position": (-6.0, 6.0)},
+        ),
     ],
-)  # fmt: skip
+)
 def test_limits_laid_over_those_of_the_urdf(
     known: Joint, body: str, expected: dict[str, object]
 ) -> None:
@@ -171,9 +190,18 @@ cell:
 
 
 FAULTS = [
-    ("joint_limit:\n  j: {}\n", "x.yaml: line 2: joint_limit: unknown key; the nearest known one is 'joint_limits'"),
-    ("joint_limits:\n  j:\n    max_velocty: 1\n", "x.yaml: line 3: joint_limits.j.max_velocty: unknown key; the nearest known one is 'max_velocity'"),
-    ("joint_limits:\n  j: {max_velocity: fast}\n", "x.yaml: line 2: joint_limits.j.max_velocity: expected a number, got 'fast'"),
+    (
+        "joint_limit:\n  j: {}\n",
+        "x.yaml: line 2: joint_limit: unknown key; the nearest known one is 'joint_limits'",
+    ),
+    (
+        "joint_limits:\n  j:\n    max_velocty: 1\n",
+        "x.yaml: line 3: joint_limits.j.max_velocty: unknown key; the nearest known one is 'max_velocity'",
+    ),
+    (
+        "joint_limits:\n  j: {max_velocity: fast}\n",
+        "x.yaml: line 2: joint_limits.j.max_velocity: expected a number, got 'fast'",
+    ),
     ("joint_limits:\n  j: {max_velocity: true}\n", "expected a number, got True"),
     ("joint_limits:\n  j: {max_velocity: '1'}\n", "expected a number, got '1'"),
     ("joint_limits:\n  j: {max_velocity: [1]}\n", "expected a number, got a list of 1"),
@@ -182,22 +210,49 @@ FAULTS = [
     ("joint_limits:\n  j: {max_velocity: -.inf}\n", "-inf is not a finite number"),
     ("joint_limits:\n  j: {max_velocity: 1e300}\n", "1e+300 is beyond 1e+09"),
     ("joint_limits:\n  j: {max_velocity: " + "9" * 5000 + "}\n", "inf is not a finite number"),
-    ("joint_limits:\n  j: {max_velocity: -1}\n", "joint 'j': -1 is not a limit; it must be 1e-09 or more"),
+    (
+        "joint_limits:\n  j: {max_velocity: -1}\n",
+        "joint 'j': -1 is not a limit; it must be 1e-09 or more",
+    ),
     ("joint_limits:\n  j: {max_velocity: 0}\n", "has_velocity_limits: false where there is none"),
     ("joint_limits:\n  j: {max_velocity: 1e-12}\n", "1e-12 is not a limit"),
     ("joint_limits:\n  j: {has_velocity_limits: 1}\n", "expected true or false, got 1.0"),
-    ("joint_limits:\n  j: {min_position: 2, max_position: 1}\n", "joint 'j': lowest position 2 is not below the highest, 1"),
-    ("joint_limits:\n  j: {angle_wraparound: true, min_position: 2}\n", "joint 'j': given beside angle_wraparound: true"),
-    ("joint_limits:\n  j: {max_velocity: 1}\n  j: {max_velocity: 2}\n", "x.yaml: line 3: key 'j' is given twice"),
-    ("joint_limits:\n  j: {max_velocity: 1, max_velocity: 1}\n", "line 2: key 'max_velocity' is given twice"),
+    (
+        "joint_limits:\n  j: {min_position: 2, max_position: 1}\n",
+        "joint 'j': lowest position 2 is not below the highest, 1",
+    ),
+    (
+        "joint_limits:\n  j: {angle_wraparound: true, min_position: 2}\n",
+        "joint 'j': given beside angle_wraparound: true",
+    ),
+    (
+        "joint_limits:\n  j: {max_velocity: 1}\n  j: {max_velocity: 2}\n",
+        "x.yaml: line 3: key 'j' is given twice",
+    ),
+    (
+        "joint_limits:\n  j: {max_velocity: 1, max_velocity: 1}\n",
+        "line 2: key 'max_velocity' is given twice",
+    ),
     ("joint_limits:\n  j: 5\n", "joint_limits.j: expected keys with values, got 5.0"),
     ("joint_limits: [1]\n", "joint_limits: expected keys with values, got a list of 1"),
     ("- 1\n", "expected keys with values, got a list of 1"),
-    ("default_velocity_scaling_factor: 1.5\n", "default_velocity_scaling_factor: 1.5 is not a factor above 0, up to 1"),
-    ("default_velocity_scaling_facto: 1\n", "the nearest known one is 'default_velocity_scaling_factor'"),
+    (
+        "default_velocity_scaling_factor: 1.5\n",
+        "default_velocity_scaling_factor: 1.5 is not a factor above 0, up to 1",
+    ),
+    (
+        "default_velocity_scaling_facto: 1\n",
+        "the nearest known one is 'default_velocity_scaling_factor'",
+    ),
     ("joint_limits: {}\n", "has neither joint_limits nor a scaling factor"),
-    ("node:\n  ros__parameters: {update_rate: 5}\n", "no node has joint_limits among its ros__parameters"),
-    ("node:\n  ros__parameters: {joint_limit: 5}\n", "node.ros__parameters.joint_limit: unknown key; the nearest known one is 'joint_limits'"),
+    (
+        "node:\n  ros__parameters: {update_rate: 5}\n",
+        "no node has joint_limits among its ros__parameters",
+    ),
+    (
+        "node:\n  ros__parameters: {joint_limit: 5}\n",
+        "node.ros__parameters.joint_limit: unknown key; the nearest known one is 'joint_limits'",
+    ),
     ("node:\n  ros__parameters: {joint_limits: {j: {max_speed: 1}}}\n", "max_speed: unknown key"),
     ("cartesian_limits: {max_trans_vel: 1}\njoint_limits: {}\n", "cartesian_limits: unknown key"),
     ("joint_limits:\n  j: {max_velocity: !degree 90}\n", "tag '!degree'; known: !degrees, !radians"),
@@ -209,7 +264,7 @@ FAULTS = [
     ("joint_limits: {j: {max_velocity: 1}\n", "not valid YAML"),
     ("joint_limits: {j: {max_velocity: 1}}\n---\na: 1\n", "a second document begins"),
     ("# nothing\n", "holds no values"),
-]  # fmt: skip
+]
 
 
 @pytest.mark.parametrize(("text", "reason"), FAULTS)

@@ -59,11 +59,14 @@ def test_all_spellings_give_the_joint_positions_that_made_the_poses(scara: Robot
             ],
         },
         {
-            "length": "mm", "unit": "deg",
+            "length": "mm",
+            "unit": "deg",
             "near": [math.degrees(NEAR[0]), math.degrees(NEAR[1]), NEAR[2], math.degrees(NEAR[3])],
-            "poses": [{"position": [1e3 * x for x in p], "rpy": np.rad2deg(a).tolist()} for p, a, _ in poses],
+            "poses": [
+                {"position": [1e3 * x for x in p], "rpy": np.rad2deg(a).tolist()} for p, a, _ in poses
+            ],
         },
-    ]  # fmt: skip
+    ]
     for data in spellings:
         for name in ("p.yaml", "p.json"):
             np.testing.assert_allclose(_read(scara, data, name), JOINTS, atol=1e-5)
@@ -121,26 +124,56 @@ POSE = {"position": [0.5, 0.0, -0.1], "rpy": [0, 0, 0]}
 @pytest.mark.parametrize(
     ("data", "reason"),
     [
-        ({"poses": [{**POSE, "rpyy": 1}]}, "p.yaml: line 1: poses[0].rpyy: unknown key; the nearest known one is 'rpy'"),
-        ({"poses": [{"position": [1, 2, 3]}]}, "poses[0]: expected one of rpy, quaternion and orientation, got 0"),
-        ({"poses": [{**POSE, "quaternion": [0, 0, 0, 1]}]}, "expected one of rpy, quaternion and orientation, got 2"),
+        (
+            {"poses": [{**POSE, "rpyy": 1}]},
+            "p.yaml: line 1: poses[0].rpyy: unknown key; the nearest known one is 'rpy'",
+        ),
+        (
+            {"poses": [{"position": [1, 2, 3]}]},
+            "poses[0]: expected one of rpy, quaternion and orientation, got 0",
+        ),
+        (
+            {"poses": [{**POSE, "quaternion": [0, 0, 0, 1]}]},
+            "expected one of rpy, quaternion and orientation, got 2",
+        ),
         ({"poses": [{"rpy": [0, 0, 0]}]}, "poses[0]: position is missing"),
-        ({"poses": [{**POSE, "position": [1, 2]}]}, "poses[0].position: 2 numbers where 3 are expected"),
+        (
+            {"poses": [{**POSE, "position": [1, 2]}]},
+            "poses[0].position: 2 numbers where 3 are expected",
+        ),
         ({"poses": [{**POSE, "position": {"x": 1, "y": 2}}]}, "poses[0].position: z is missing"),
-        ({"poses": [{**POSE, "position": {"x": 1, "y": 2, "Z": 3}}]}, "position.Z: unknown key; the nearest known one is 'z'"),
-        ({"poses": [{"position": [0, 0, 0], "quaternion": [0, 0, 0, 0.5]}]}, "the quaternion (x, y, z, w) has norm 0.5, not 1"),
-        ({"poses": [{**POSE, "position": [500, 0, 1e6]}]}, "1e+06 m from the base; give length: mm if it is mm"),
+        (
+            {"poses": [{**POSE, "position": {"x": 1, "y": 2, "Z": 3}}]},
+            "position.Z: unknown key; the nearest known one is 'z'",
+        ),
+        (
+            {"poses": [{"position": [0, 0, 0], "quaternion": [0, 0, 0, 0.5]}]},
+            "the quaternion (x, y, z, w) has norm 0.5, not 1",
+        ),
+        (
+            {"poses": [{**POSE, "position": [500, 0, 1e6]}]},
+            "1e+06 m from the base; give length: mm if it is mm",
+        ),
         ({"poses": []}, "poses: holds no pose"),
         ({"poses": [POSE], "unit": "grad"}, "unit: 'grad' is not one of rad, deg"),
         ({"poses": [POSE], "tip": "link_9"}, "tip: no link 'link_9'; the nearest known one is 'link_"),
         ({"poses": [POSE], "base": 5}, "base: expected text, got 5.0"),
-        ({"poses": [POSE], "near": [1.0]}, "near: 1 positions for 4 joints (joint_1, joint_2, joint_3, joint_4)"),
-        ({"poses": [POSE], "near": {"joint_1": 1.0}}, "near: no position for 'joint_2', 'joint_3', 'joint_4'"),
-        ({"poses": [POSE], "near": {"joint_11": 1.0}}, "near: no joint 'joint_11'; the nearest known one is 'joint_1'"),
+        (
+            {"poses": [POSE], "near": [1.0]},
+            "near: 1 positions for 4 joints (joint_1, joint_2, joint_3, joint_4)",
+        ),
+        (
+            {"poses": [POSE], "near": {"joint_1": 1.0}},
+            "near: no position for 'joint_2', 'joint_3', 'joint_4'",
+        ),
+        (
+            {"poses": [POSE], "near": {"joint_11": 1.0}},
+            "near: no joint 'joint_11'; the nearest known one is 'joint_1'",
+        ),
         ({"poses": [POSE]}, "1 waypoint; a motion needs two or more"),
         ({"poses": [POSE], "points": []}, "points: unknown key; known: poses, tip"),
     ],
-)  # fmt: skip
+)
 def test_faults_are_named(scara: Robot, data: object, reason: str) -> None:
     with pytest.raises(InputError) as caught:
         _read(scara, data)

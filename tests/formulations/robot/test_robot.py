@@ -18,13 +18,37 @@ FULL = 'lower="-3" upper="3" velocity="2" acceleration="5" jerk="50" effort="1"'
 HAND = urdf(
     '<link name="base"/>',
     joint("turn", "base", "arm", kind="continuous", limit=FULL),
-    joint("lift", "arm", "palm", kind="prismatic", limit='lower="0" upper="0.5" velocity="0.3" acceleration="2" jerk="9"'),
-    joint("left", "palm", "l", kind="prismatic", limit='lower="0" upper="0.1" velocity="0.2" acceleration="1" jerk="8"'),
-    joint("right", "palm", "r", kind="prismatic", limit='lower="-0.3" upper="0" velocity="0.3" jerk="4"',
-          more='<mimic joint="left" multiplier="-2" offset="-0.02"/>'),
-    joint("thumb", "r", "t", limit='lower="-1" upper="1" velocity="3"', more='<mimic joint="right" multiplier="0.5"/>'),
+    joint(
+        "lift",
+        "arm",
+        "palm",
+        kind="prismatic",
+        limit='lower="0" upper="0.5" velocity="0.3" acceleration="2" jerk="9"',
+    ),
+    joint(
+        "left",
+        "palm",
+        "l",
+        kind="prismatic",
+        limit='lower="0" upper="0.1" velocity="0.2" acceleration="1" jerk="8"',
+    ),
+    joint(
+        "right",
+        "palm",
+        "r",
+        kind="prismatic",
+        limit='lower="-0.3" upper="0" velocity="0.3" jerk="4"',
+        more='<mimic joint="left" multiplier="-2" offset="-0.02"/>',
+    ),
+    joint(
+        "thumb",
+        "r",
+        "t",
+        limit='lower="-1" upper="1" velocity="3"',
+        more='<mimic joint="right" multiplier="0.5"/>',
+    ),
     joint("tool", "palm", "tip", kind="fixed", limit=""),
-)  # fmt: skip
+)
 
 
 @pytest.fixture
@@ -68,9 +92,13 @@ def test_followers_set_limits_of_their_leader_by_their_speed(hand: Path) -> None
 
 
 @given(
-    m=st.floats(-5, 5).filter(lambda m: abs(m) > 1e-3), offset=st.floats(-1, 1), q=st.floats(-9, 9),
-    speed=st.floats(0.1, 9), low=st.floats(-3, 0), width=st.floats(0.1, 4),
-)  # fmt: skip
+    m=st.floats(-5, 5).filter(lambda m: abs(m) > 1e-3),
+    offset=st.floats(-1, 1),
+    q=st.floats(-9, 9),
+    speed=st.floats(0.1, 9),
+    low=st.floats(-3, 0),
+    width=st.floats(0.1, 4),
+)
 def test_a_leader_within_its_limits_keeps_its_follower_within_its_own(
     m: float, offset: float, q: float, speed: float, low: float, width: float
 ) -> None:
@@ -94,10 +122,13 @@ def test_every_missing_limit_of_every_joint_is_named(hand: Path, tmp_path: Path)
         _ = Robot.from_urdf(arm).limits
     message = str(caught.value)
     for part in (
-        "acceleration of joint1, joint2", "jerk of joint1, joint2", "position of joint1, joint2",
+        "acceleration of joint1, joint2",
+        "jerk of joint1, joint2",
+        "position of joint1, joint2",
         "max_acceleration, max_jerk, min_position, max_position in a joint_limits.yaml",
-        "robot.with_limits(acceleration=...)", "unlimited=['acceleration', 'jerk', 'position']",
-    ):  # fmt: skip
+        "robot.with_limits(acceleration=...)",
+        "unlimited=['acceleration', 'jerk', 'position']",
+    ):
         assert part in message
     assert "velocity of" not in message
 
@@ -188,13 +219,27 @@ def test_faulty_options(hand: Path, options: dict[str, object], reason: str) -> 
 @pytest.mark.parametrize(
     ("parts", "reason"),
     [
-        (joint("f", "b", "c", kind="floating", limit=""), "joint 'f' is floating, which is not moved here; name the joints"),
+        (
+            joint("f", "b", "c", kind="floating", limit=""),
+            "joint 'f' is floating, which is not moved here; name the joints",
+        ),
         (joint("m", "b", "c", more='<mimic joint="m"/>'), "joint 'm' follows itself"),
-        (joint("m", "b", "c", more='<mimic joint="n"/>') + joint("n", "c", "d", more='<mimic joint="m"/>'), "follows itself"),
-        (joint("m", "b", "c", more='<mimic joint="s"/>') + joint("s", "c", "d", kind="fixed", limit=""), "joint 'm' follows joint 's', which is fixed"),
-        (joint("m", "b", "c", limit='lower="5" upper="6" velocity="1"', more='<mimic joint="j"/>'), "joint 'j': its followers leave it no position"),
+        (
+            joint("m", "b", "c", more='<mimic joint="n"/>')
+            + joint("n", "c", "d", more='<mimic joint="m"/>'),
+            "follows itself",
+        ),
+        (
+            joint("m", "b", "c", more='<mimic joint="s"/>')
+            + joint("s", "c", "d", kind="fixed", limit=""),
+            "joint 'm' follows joint 's', which is fixed",
+        ),
+        (
+            joint("m", "b", "c", limit='lower="5" upper="6" velocity="1"', more='<mimic joint="j"/>'),
+            "joint 'j': its followers leave it no position",
+        ),
     ],
-)  # fmt: skip
+)
 def test_faulty_trees(tmp_path: Path, parts: str, reason: str) -> None:
     path = written(tmp_path, "x.urdf", urdf('<link name="a"/>', joint("j", "a", "b"), parts))
     with pytest.raises(InputError) as caught:

@@ -64,15 +64,24 @@ def test_groups_of_groups_and_passive_joints(tree: Urdf) -> None:
         ('<group name="gg"/>', "no group 'g'; the nearest known one is 'gg'"),
         ('<group name="g"/>', "group 'g' has no joint that moves"),
         ('<group name="g"><joint name="left9"/></group>', "group 'g': <joint>: no joint 'left9'"),
-        ('<group name="g"><joints name="hip"/></group>', "<joints>: unknown element; the nearest known one is 'joint'"),
+        (
+            '<group name="g"><joints name="hip"/></group>',
+            "<joints>: unknown element; the nearest known one is 'joint'",
+        ),
         ('<group name="g"><chain base_link="base"/></group>', "<chain>: attribute tip_link is missing"),
-        ('<group name="g"><chain base_link="bas" tip_link="lt"/></group>', "no link 'bas'; the nearest known one is 'base'"),
+        (
+            '<group name="g"><chain base_link="bas" tip_link="lt"/></group>',
+            "no link 'bas'; the nearest known one is 'base'",
+        ),
         ('<group name="g"><group name="g"/></group>', "group 'g' contains itself"),
-        ('<group name="g"><group name="h"/></group><group name="h"><group name="g"/></group>', "group 'g' contains itself"),
+        (
+            '<group name="g"><group name="h"/></group><group name="h"><group name="g"/></group>',
+            "group 'g' contains itself",
+        ),
         ('<group name="g"><joint name="hip"/></group><group name="g"/>', "group 'g' is given twice"),
         ('<group name="g"><joint name="hip"/></group><passive_joint name="hop"/>', "no joint 'hop'"),
     ],
-)  # fmt: skip
+)
 def test_faults_are_named(tree: Urdf, body: str, reason: str) -> None:
     with pytest.raises(InputError) as caught:
         _group(tree, body)

@@ -1,4 +1,4 @@
-"""Waypoints from tables and JointTrajectory messages: every order, separator, unit and wrapping; faults by name."""
+"""Waypoints from tables and messages: every order, separator, unit and wrapping; faults by name."""
 
 from __future__ import annotations
 
@@ -44,14 +44,24 @@ def _csv(
 
 
 @given(
-    order=st.permutations(range(3)), separator=st.sampled_from([",", ";", "\t", " ", "   ", ", "]),
-    prefix=st.sampled_from(["", "position_"]), end=st.sampled_from(["\n", "\r\n"]),
-    mark=st.sampled_from(["", "\ufeff"]), tail=st.sampled_from(["", "\n", "\n\n# end\n"]),
+    order=st.permutations(range(3)),
+    separator=st.sampled_from([",", ";", "\t", " ", "   ", ", "]),
+    prefix=st.sampled_from(["", "position_"]),
+    end=st.sampled_from(["\n", "\r\n"]),
+    mark=st.sampled_from(["", "\ufeff"]),
+    tail=st.sampled_from(["", "\n", "\n\n# end\n"]),
     rows=st.lists(st.lists(st.floats(-1.0, 1.0), min_size=3, max_size=3), min_size=2, max_size=5),
-)  # fmt: skip
+)
 def test_the_order_of_columns_and_the_separator_do_not_matter(
-    robot: Robot, order: list[int], separator: str, prefix: str, end: str, mark: str, tail: str, rows: list[list[float]]
-) -> None:  # fmt: skip
+    robot: Robot,
+    order: list[int],
+    separator: str,
+    prefix: str,
+    end: str,
+    mark: str,
+    tail: str,
+    rows: list[list[float]],
+) -> None:
     header = tuple(prefix + NAMES[k] for k in order)
     text = mark + _csv([[row[k] for k in order] for row in rows], header, separator) + tail
     np.testing.assert_array_equal(_read(robot, text.replace("\n", end)), rows)
@@ -95,7 +105,10 @@ FAULTS = [
     ("hip,lift\n0,0\n0,0", "column: no column for joint 'wrist'"),
     ("hip,wirst,lift\n0,0,0\n0,0,0", "column 'wirst' is no joint; the nearest known one is 'wrist'"),
     ("hip,lift,wrist,time\n0,0,0,0", "column 'time' is no joint; known: hip, lift, wrist"),
-    ("hip,lift,wrist,slave\n0,0,0,0", "column 'slave': joint 'slave' is not among those that are moved"),
+    (
+        "hip,lift,wrist,slave\n0,0,0,0",
+        "column 'slave': joint 'slave' is not among those that are moved",
+    ),
     ("hip,lift,wrist,position_hip\n0,0,0,0", "column: joint 'hip' is given twice"),
     ("0,0\n0,0", "line 1: 2 columns without names for 3 joints (hip, lift, wrist)"),
     ("0,0,0\n0,0", "line 2: 2 values for 3 columns (hip, lift, wrist)"),
@@ -112,7 +125,7 @@ FAULTS = [
     ('hip,lift,wrist\n0,"0,0\n', "line 2: not valid CSV"),
     ("", "is empty"),
     (" \n", "is empty"),
-]  # fmt: skip
+]
 
 
 @pytest.mark.parametrize(("text", "reason"), FAULTS)
@@ -183,22 +196,52 @@ points:
     [
         (lambda m: m.pop("joint_names"), "joint_names is missing"),
         (lambda m: m.pop("points"), "points is missing"),
-        (lambda m: m.update(joint_names=["hip", "lift", "wirst"]), "joint_names[2]: 'wirst' is not a joint that is moved; the nearest known one is 'wrist'"),
-        (lambda m: m.update(joint_names=["hip", "lift"]), "joint_names: no joint_names for joint 'wrist'"),
-        (lambda m: m.update(joint_names=["hip", "lift", "hip"]), "joint_names: joint 'hip' is given twice"),
-        (lambda m: m.update(joint_name=[]), "joint_name: unknown key; the nearest known one is 'joint_names'"),
+        (
+            lambda m: m.update(joint_names=["hip", "lift", "wirst"]),
+            "joint_names[2]: 'wirst' is not a joint that is moved; the nearest known one is 'wrist'",
+        ),
+        (
+            lambda m: m.update(joint_names=["hip", "lift"]),
+            "joint_names: no joint_names for joint 'wrist'",
+        ),
+        (
+            lambda m: m.update(joint_names=["hip", "lift", "hip"]),
+            "joint_names: joint 'hip' is given twice",
+        ),
+        (
+            lambda m: m.update(joint_name=[]),
+            "joint_name: unknown key; the nearest known one is 'joint_names'",
+        ),
         (lambda m: m["points"][1].pop("positions"), "points[1]: positions are missing"),
-        (lambda m: m["points"][1].update(positions=[1.0]), "points[1].positions: 1 positions for 3 joints"),
-        (lambda m: m["points"][1].update(position=[1.0]), "points[1].position: unknown key; the nearest known one is 'positions'"),
-        (lambda m: m["points"][1].update(positions=[1.0, "a", 2.0]), "points[1].positions[1]: expected a number, got 'a' (joint 'lift')"),
-        (lambda m: m["points"][1].update(positions=[1.0, float("nan"), 2.0]), "nan is not a finite number (joint 'lift')"),
-        (lambda m: m["points"][1].update(positions=[1.0, True, 2.0]), "expected a number, got True (joint 'lift')"),
-        (lambda m: m["points"][1].update(positions=[1.0, 10**400, 2.0]), "inf is not a finite number (joint 'lift')"),
+        (
+            lambda m: m["points"][1].update(positions=[1.0]),
+            "points[1].positions: 1 positions for 3 joints",
+        ),
+        (
+            lambda m: m["points"][1].update(position=[1.0]),
+            "points[1].position: unknown key; the nearest known one is 'positions'",
+        ),
+        (
+            lambda m: m["points"][1].update(positions=[1.0, "a", 2.0]),
+            "points[1].positions[1]: expected a number, got 'a' (joint 'lift')",
+        ),
+        (
+            lambda m: m["points"][1].update(positions=[1.0, float("nan"), 2.0]),
+            "nan is not a finite number (joint 'lift')",
+        ),
+        (
+            lambda m: m["points"][1].update(positions=[1.0, True, 2.0]),
+            "expected a number, got True (joint 'lift')",
+        ),
+        (
+            lambda m: m["points"][1].update(positions=[1.0, 10**400, 2.0]),
+            "inf is not a finite number (joint 'lift')",
+        ),
         (lambda m: m.update(points=m["points"][:1]), "1 waypoint; a motion needs two or more"),
         (lambda m: m.update(points=[]), "0 waypoint"),
         (lambda m: m.update(points=7), "points: expected a list, got 7.0"),
     ],
-)  # fmt: skip
+)
 def test_faulty_messages_are_named_by_their_key(robot: Robot, change: object, reason: str) -> None:
     message = _message(ROWS)
     change(message)
@@ -211,7 +254,11 @@ def test_faulty_messages_are_named_by_their_key(robot: Robot, change: object, re
 @pytest.mark.parametrize(
     ("text", "name", "reason"),
     [
-        ('{"jointnames": []}', "w.json", "neither poses nor a JointTrajectory: key 'jointnames'; the nearest known one is 'joint_names'"),
+        (
+            '{"jointnames": []}',
+            "w.json",
+            "neither poses nor a JointTrajectory: key 'jointnames'; the nearest known one is 'joint_names'",
+        ),
         ("[]", "w.json", "0 trajectories; one is read"),
         ("[1, 2]", "w.json", "2 trajectories; one is read"),
         ("5", "w.json", "expected keys with values, got 5.0"),
@@ -220,7 +267,7 @@ def test_faulty_messages_are_named_by_their_key(robot: Robot, change: object, re
         ("points: [", "w.yaml", "not valid YAML"),
         ("{}", "w.json", "neither poses nor"),
     ],
-)  # fmt: skip
+)
 def test_what_is_no_message(robot: Robot, text: str, name: str, reason: str) -> None:
     with pytest.raises(InputError) as caught:
         _read(robot, text, name)
