@@ -84,7 +84,7 @@ def robot_of(
         raise InputError(f"srdf: {srdf} is given without a group of it (group=...)")
     else:
         names = _chosen(tree, joints)
-    files = [limits] if isinstance(limits, str | Path) else list(limits or ())
+    files = _listed("limits", limits)
     read = [parse_limits(decode(read_bytes(f, largest=LARGEST_LIMITS), str(f)), str(f)) for f in files]
     known = {joint.name: joint.joint for joint in tree.joints}
     for file in read:
@@ -96,7 +96,7 @@ def robot_of(
         ),
         "jerk": _factor("jerk_scaling", jerk_scaling, []),
     }
-    free = (unlimited,) if isinstance(unlimited, str) else tuple(unlimited)
+    free = _listed("unlimited", unlimited)
     for quantity in free:
         if quantity not in _FREE:
             raise InputError(f"unlimited: {shown(quantity)}; {known_names(str(quantity), _FREE)}")
@@ -123,6 +123,16 @@ def robot_of(
         tip=_link(tree, "tip", tip) or ends[1] or named[names[-1]].child,
         urdf=tree,
     )
+
+
+def _listed(key: str, given: Any) -> list[Any]:
+    """One value or several, as a list."""
+    if given is None or isinstance(given, str | Path):
+        return [] if given is None else [given]
+    try:
+        return list(given)
+    except TypeError:
+        raise InputError(f"{key}: expected one text or several, got {shown(given)}") from None
 
 
 def _chosen(tree: Urdf, joints: Sequence[str] | None) -> tuple[str, ...]:

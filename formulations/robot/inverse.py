@@ -3,8 +3,9 @@
 Damped Newton steps (Levenberg 1944, Marquardt 1963) run from the last waypoint and from many other starts at
 once, within the position limits. For six rotary joints with a closed form, EAIK gives all branches as starts
 (the extra ``arms``); without it, and for any other arm, the starts are spread over the limits. Pinocchio
-would bring the same Newton steps and 200 MB. Where an arm has more joints than a pose needs, the solution is
-moved along its self-motion towards the last waypoint. Every answer is checked by forward kinematics.
+would bring the same Newton steps in a C++ library. Where an arm has more joints than a pose needs, the
+solution is moved along its self-motion towards the last waypoint. Every answer is checked by forward
+kinematics.
 """
 
 from __future__ import annotations
@@ -99,15 +100,20 @@ class _Search:
         starts = np.clip(np.concatenate(seeds), self.low, self.high)
         q, error = _descend(self.chain, pose, starts, self.low, self.high)
         found = q[_is_solved(error)]
-        if not len(found) and len(forms):
+        if len(forms) and (not len(found) or self._is_singular(found)):  # EAIK drops singular branches
             q, error = _descend(self.chain, pose, self.starts, self.low, self.high)
-            found = q[_is_solved(error)]
+            found = np.concatenate([found, q[_is_solved(error)]])
         if not len(found):
             raise self._refusal(pose, near)
         found = np.clip(self._turned(found, near), self.low, self.high)
         order = np.argsort(np.linalg.norm(found - near, axis=1), kind="stable")
         best = [self._pulled(pose, found[k], near) for k in order[:2]]
         return min(best, key=lambda joints: float(np.linalg.norm(joints - near)))
+
+    def _is_singular(self, joints: Array) -> bool:
+        """Whether the tip cannot move in some direction at one of the solutions (n, dof)."""
+        _, jacobian = self.chain.pose_and_jacobian(joints)
+        return bool(np.linalg.svd(jacobian, compute_uv=False)[:, -1].min() < 1e-4)
 
     def _turned(self, joints: Array, near: Array) -> Array:
         """The same poses with whole turns added: nearest to ``near``, within the limits if that can be."""

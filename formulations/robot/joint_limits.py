@@ -20,14 +20,13 @@ from dataclasses import dataclass, replace
 from typing import Any
 
 from formulations.problem.errors import InputError
-from formulations.robot.joints import UNLIMITED, Joint, JointKind
+from formulations.robot.joints import SMALLEST_LIMIT, UNLIMITED, Joint, JointKind
 from formulations.robot.text.entry import Entry
 from formulations.robot.text.files import known_names, nearest_of, shown
 from formulations.robot.text.trees import parse_yaml
 from formulations.robot.urdf import MOST_JOINTS
 
 LARGEST_LIMITS = 2_000_000  # bytes
-SMALLEST_LIMIT = 1e-9  # rad/s and the like: less is no limit that a motion can be planned with
 
 _SWITCHES = tuple(
     f"has_{quantity}_limits"

@@ -21,6 +21,7 @@ class JointKind(StrEnum):
 
 QUANTITIES = ("velocity", "acceleration", "jerk", "position")
 UNLIMITED = (-math.inf, math.inf)
+SMALLEST_LIMIT = 1e-9  # rad/s and the like: less is no limit that a motion can be planned with
 
 
 @dataclass(frozen=True)

@@ -65,7 +65,30 @@ class Robot:
         base: str | None = None,
         tip: str | None = None,
     ) -> Robot:
-        """Read a robot from its files; parameters and errors are those of ``robot_of``."""
+        """Read a robot from a URDF and the files beside it; ``robot_of`` says more.
+
+        Parameters
+        ----------
+        path : str or Path
+            The URDF.
+        joints : sequence of str, optional
+            The joints to move, in this order.
+        group, srdf : optional
+            A group of an SRDF in place of ``joints``.
+        limits : str, Path or iterable of them, optional
+            joint_limits.yaml files.
+        velocity_scaling, acceleration_scaling, jerk_scaling : float, optional
+            Factors on the limits of all joints.
+        unlimited : str or iterable of str, optional
+            Quantities that a joint may have no limit of.
+        base, tip : str, optional
+            Links that Cartesian poses are measured from and given for.
+
+        Returns
+        -------
+        Robot
+            Its ``limits`` raises InputError where one is still missing.
+        """
         from formulations.robot.assembly import robot_of  # it makes robots
 
         return robot_of(

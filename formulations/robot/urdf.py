@@ -1,10 +1,10 @@
 """URDF text -> links and joints with limits, in SI units.
 
-yourdfpy reads the joints (MIT licence, released in 2026, 2 MB; urchin, its rival, wants limits that URDF
-leaves optional, and pinocchio brings 200 MB): it is given a copy of the text that was checked here and holds
-links and joints only, so it opens no mesh and can meet nothing that it does not know. What it leaves out is
-added: URDF 1.2's acceleration and jerk, and the soft limits of <safety_controller>, which narrow the position
-limits as in MoveIt.
+yourdfpy reads the joints: MIT licence, released this year, and it takes what URDF leaves optional, where urchin
+asks for an effort and a velocity of every limit; both bring the mesh library trimesh. It is given a copy of
+the text that was checked here and holds links and joints only, so it opens no mesh and can meet nothing that it
+does not know. What it leaves out is added: URDF 1.2's acceleration and jerk, and the soft limits of
+<safety_controller>, which narrow the position limits as in MoveIt.
 """
 
 from __future__ import annotations
@@ -15,7 +15,7 @@ from dataclasses import dataclass
 from typing import Any
 
 from formulations.problem.errors import InputError
-from formulations.robot.joints import UNLIMITED, Joint, JointKind
+from formulations.robot.joints import SMALLEST_LIMIT, UNLIMITED, Joint, JointKind
 from formulations.robot.text.entry import LARGEST_NUMBER
 from formulations.robot.text.files import known_names, shown
 from formulations.robot.text.xml_tree import Element, attribute, number, numbers, parse_xml, place
@@ -24,6 +24,7 @@ LARGEST_URDF = 10_000_000  # bytes; a humanoid with all its parts has a fifth of
 MOST_JOINTS = 1000
 
 _MOVING = tuple(str(kind) for kind in JointKind)
+_COPIED = ("link", "xyz", "rpy", "velocity", "lower", "upper", "joint", "multiplier", "offset")
 _TYPES = (*_MOVING, "fixed", "floating", "planar")
 
 Rows = tuple[tuple[float, ...], ...]
@@ -265,20 +266,12 @@ def _read_by_library(
         for tag in ("parent", "child", "origin", "axis", "limit", "mimic"):
             inner = element.find(tag)
             if inner is not None:
-                keys = (
-                    "link",
-                    "xyz",
-                    "rpy",
-                    "velocity",
-                    "lower",
-                    "upper",
-                    "joint",
-                    "multiplier",
-                    "offset",
-                )
+                keys = set(_COPIED)
                 if element.get("type").strip() == JointKind.CONTINUOUS:
-                    keys = tuple(key for key in keys if key not in ("lower", "upper"))
-                kept = {key: inner.get(key).strip() for key in keys if inner.get(key) is not None}
+                    keys = keys - {"lower", "upper"}
+                kept = {
+                    key: inner.get(key).strip() for key in sorted(keys) if inner.get(key) is not None
+                }
                 etree.SubElement(copy, tag, kept)
     model = yourdfpy.URDF.load(
         io.BytesIO(etree.tostring(plain)), build_scene_graph=False, load_meshes=False
@@ -315,8 +308,13 @@ def _limits(file: str, element: Element, read: Any) -> Joint:
         for key in ("acceleration", "jerk"):
             found[key] = number(file, limit, key, what)
         for key, value in found.items():
-            if value is not None and value < 0.0:
-                raise InputError(f"{place(file, limit)}: {what}: {key} {value:g} is negative")
+            if value is not None and (value < 0.0 or 0.0 < value < SMALLEST_LIMIT):
+                reason = (
+                    "is negative"
+                    if value < 0.0
+                    else f"is below {SMALLEST_LIMIT:g}: no limit to plan with"
+                )
+                raise InputError(f"{place(file, limit)}: {what}: {key} {value:g} {reason}")
             found[key] = value or None
     kind = JointKind(read.type)
     position = UNLIMITED if kind is JointKind.CONTINUOUS else _interval(file, element, read, what)

@@ -47,6 +47,8 @@ def read_bytes(path: str | Path, *, largest: int) -> bytes:
     InputError
         The file is missing, too large, or not a regular file.
     """
+    if not isinstance(path, str | os.PathLike):  # a number would be an open file
+        raise InputError(f"{shown(path)}: not the name of a file")
     try:
         mode = os.stat(path)
         if not stat.S_ISREG(mode.st_mode):

@@ -54,7 +54,7 @@ def trajectory_positions(top: Entry, names: Sequence[str]) -> Array:
     InputError
         For an unknown key, a joint that is missing, unknown or given twice, and a point without positions.
     """
-    message = _unwrapped(top)
+    message = message_of(top)
     entries = message.entries(MESSAGE)
     for key in ("joint_names", "points"):
         if key not in entries:
@@ -90,8 +90,24 @@ def _number(entry: Entry, joint: str) -> float:
         raise InputError(f"{error} (joint {shown(joint)})") from None
 
 
-def _unwrapped(top: Entry) -> Entry:
-    """The JointTrajectory inside the messages that carry it."""
+def message_of(top: Entry) -> Entry:
+    """The JointTrajectory inside the messages that carry it.
+
+    Parameters
+    ----------
+    top : Entry
+        A JointTrajectory, or a message that holds one.
+
+    Returns
+    -------
+    Entry
+        With the keys ``joint_names`` and ``points``, if it is one.
+
+    Raises
+    ------
+    InputError
+        For a key that stands beside a trajectory in no such message, and a list of several.
+    """
     current = top
     for _ in range(4):
         if current.is_list:

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import json
 import os
+import sys
 import time
 from collections.abc import Callable
 from pathlib import Path
@@ -13,6 +14,8 @@ from robot_files import ROBOTS, planar
 
 from formulations import InputError
 from formulations.robot import Robot, robot_of, waypoints_of
+from formulations.robot.joint_limits import parse_limits
+from formulations.robot.urdf import parse_urdf
 
 READERS = ("urdf", "srdf", "limits", "csv", "json", "yaml")
 SECOND = 1.0  # of this process, whatever else the machine does
@@ -164,6 +167,7 @@ def test_what_is_no_file(reader: Callable[[str, Path], object], tmp_path: Path, 
     assert "is a folder, not a file" in _refused(reader, kind, tmp_path)
     assert "no such file" in _refused(reader, kind, tmp_path / "none")
     assert "not the name of a file" in _refused(reader, kind, Path("a\0b"))
+    assert "5" in _refused(reader, kind, 5)  # would be an open file
     assert "is a device or a pipe" in _refused(reader, kind, Path("/dev/zero"))
     os.mkfifo(tmp_path / "pipe")
     assert "is a device or a pipe" in _refused(reader, kind, tmp_path / "pipe")
@@ -200,3 +204,22 @@ def test_nothing_is_written(
         limits=ROBOTS / "iiwa7_joint_limits.yaml",
     )
     assert list(tmp_path.iterdir()) == []
+
+
+@pytest.mark.parametrize(
+    ("package", "kind", "text"),
+    [
+        ("yourdfpy", "urdf", planar(1.0)),
+        ("lxml", "urdf", planar(1.0)),
+        ("yaml", "limits", "joint_limits: {joint1: {max_velocity: 1}}"),
+    ],
+)
+def test_a_package_that_is_not_installed_is_named(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch, package: str, kind: str, text: str
+) -> None:
+    monkeypatch.setitem(sys.modules, package, None)
+    path = tmp_path / "x"
+    path.write_text(text)
+    parse = parse_urdf if kind == "urdf" else parse_limits
+    with pytest.raises(InputError, match=r"needs the package \w+: pip install 'timebound\[robot\]'"):
+        parse(text, "x")

@@ -152,3 +152,14 @@ def test_faulty_arguments() -> None:
         robot.inverse(np.eye(3))
     with pytest.raises(InputError, match="near: expected 4 finite joint positions"):
         robot.inverse(np.eye(4)[None], near=[0.0, 1.0])
+
+
+def test_a_path_through_a_singular_pose_stays_on_its_branch() -> None:
+    """The wrist of UR5 turns through zero, where two axes are in line and the branches meet."""
+    robot = _robot("ur5")
+    path = np.array([[0.3, -1.2, 1.4, -0.5, angle, 0.7] for angle in np.linspace(0.2, -0.2, 9)])
+    found = robot.inverse(robot.forward(path), near=path[0])
+    reached = robot.forward(found)
+    np.testing.assert_allclose(reached, robot.forward(path), atol=2e-4)
+    np.testing.assert_allclose(found[4], path[4], atol=1e-3)
+    assert np.abs(np.diff(found, axis=0)).max() < 0.5

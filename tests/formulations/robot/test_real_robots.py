@@ -35,7 +35,8 @@ def _robot(name: str) -> Robot:
 
 
 WAYPOINTS = {  # tables as an engineer writes them: in degrees, and m for the prismatic axis
-    "panda": ("csv", """panda_joint1,panda_joint2,panda_joint3,panda_joint4,panda_joint5,panda_joint6,panda_joint7
+    "panda": ("csv", """\
+panda_joint1,panda_joint2,panda_joint3,panda_joint4,panda_joint5,panda_joint6,panda_joint7
 0,-45,0,-135,0,90,45
 20,-30,10,-120,0,100,60
 40,-20,0,-110,-10,100,45

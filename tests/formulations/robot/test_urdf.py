@@ -127,6 +127,7 @@ def test_meshes_and_other_files_are_never_opened(tmp_path: Path) -> None:
 
 BASE = '<link name="a"/>'
 FAULTS = [
+    (joint("j", "a", "b", limit='jerk="1e-12"'), "joint 'j': <limit>: jerk 1e-12 is below 1e-09"),
     ("", "has no joints"),
     ("<joint/>", "attribute name is missing"),
     (
