@@ -124,6 +124,15 @@ def test_deep_nesting(reader: Callable[[str, Path], object], tmp_path: Path, kin
     _refused(reader, kind, path)
 
 
+def test_the_depth_that_is_read(reader: Callable[[str, Path], object], tmp_path: Path) -> None:
+    path = tmp_path / "deep"
+    for kind in ("yaml", "json"):
+        path.write_text('{"a": ' * 40 + "1" + "}" * 40)
+        assert "more than 32 levels deep" in _refused(reader, kind, path)
+        path.write_text('{"a": ' * 20 + "1" + "}" * 20)
+        assert "neither poses nor a JointTrajectory" in _refused(reader, kind, path)
+
+
 @pytest.mark.parametrize("kind", sorted(WIDE))
 def test_wide_files(reader: Callable[[str, Path], object], tmp_path: Path, kind: str) -> None:
     path = tmp_path / "wide"

@@ -163,3 +163,17 @@ def test_a_path_through_a_singular_pose_stays_on_its_branch() -> None:
     np.testing.assert_allclose(reached, robot.forward(path), atol=2e-4)
     np.testing.assert_allclose(found[4], path[4], atol=1e-3)
     assert np.abs(np.diff(found, axis=0)).max() < 0.5
+
+
+def test_branches_of_a_singular_pose_are_not_lost() -> None:
+    """EAIK drops some where two axes are in line; one of them is the nearest here, 1.2204 rad away."""
+    robot = _robot("ur5")
+    rng = np.random.default_rng(1)
+    for _ in range(12):
+        q = rng.uniform(-2, 2, 6)
+        q[4] = 0.0
+        near = q + rng.uniform(-1, 1, 6)
+    pose = robot.forward(q)
+    found = robot.inverse(pose[None], near=near)[0]
+    assert np.linalg.norm(found - near) < 1.2205
+    np.testing.assert_allclose(robot.forward(found), pose, atol=2e-4)

@@ -160,6 +160,24 @@ def test_the_later_file_counts_key_by_key() -> None:
     assert (found.velocity, found.jerk) == (4.0, 9.0)
 
 
+def test_the_default_factor_of_the_later_file_counts(tmp_path: Path) -> None:
+    arm = written(tmp_path, "arm.urdf", planar(1.0))
+    files = [
+        written(tmp_path, f"{k}.yaml", f"default_velocity_scaling_factor: 0.{k}\n") for k in (5, 2)
+    ]
+    assert Robot.from_urdf(arm, limits=files).joints[0].velocity == 0.2 * 2.0
+
+
+def test_limits_of_a_follower_reach_its_leader(tmp_path: Path) -> None:
+    follower = joint("g", "b", "c", more='<mimic joint="j" multiplier="4"/>')
+    arm = written(tmp_path, "arm.urdf", urdf('<link name="a"/>', joint("j", "a", "b"), follower))
+    limits = written(
+        tmp_path, "l.yaml", "joint_limits: {j: {max_jerk: 9}, g: {max_velocity: 2, max_jerk: 8}}"
+    )
+    (leader,) = Robot.from_urdf(arm, limits=limits).joints
+    assert (leader.velocity, leader.jerk, leader.position) == (0.5, 2.0, (-0.75, 0.75))
+
+
 def test_nodes_of_a_ros2_control_file() -> None:
     text = """
 controller_manager:

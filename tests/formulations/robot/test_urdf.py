@@ -112,6 +112,9 @@ def test_soft_limits_narrow_the_position_limits() -> None:
     soft = '<safety_controller k_velocity="0" soft_lower_limit="-0.5" soft_upper_limit="9"/>'
     (only,) = parse_urdf(urdf('<link name="a"/>', joint("j", "a", "b", more=soft)), "x.urdf").joints
     assert only.joint.position == (-0.5, 3.0)
+    wide = soft.replace("-0.5", "-9").replace('"9"', '"0.5"')
+    (only,) = parse_urdf(urdf('<link name="a"/>', joint("j", "a", "b", more=wide)), "x.urdf").joints
+    assert only.joint.position == (-3.0, 0.5)
 
 
 def test_meshes_and_other_files_are_never_opened(tmp_path: Path) -> None:
