@@ -71,18 +71,16 @@ def parse_table(text: str, file: str) -> Table:
         rows.append((line, cells))
     if not rows:
         raise InputError(f"{file}: has no rows")
-    named = any(number_of(cell) is None for cell in rows[0][1])
-    looks_infinite = all(
-        number_of(c) is not None or c.lower().lstrip("+-") in _NOT_FINITE for c in rows[0][1]
-    )
-    header = tuple(rows[0][1]) if named and not looks_infinite else None
+    header = tuple(rows[0][1]) if any(map(_is_name, rows[0][1])) else None
     body = rows[1:] if header else rows
     if not body:
         raise InputError(f"{file}: has a header and no rows below it")
     return Table(file, header, body)
 
 
-_NOT_FINITE = ("nan", "inf", "infinity")
+def _is_name(cell: str) -> bool:
+    """Whether a cell of the first row names a column, rather than being a number or meant as one."""
+    return number_of(cell) is None and cell.lower().lstrip("+-") not in ("nan", "inf", "infinity")
 
 
 def _cells(text: str, file: str) -> Iterator[tuple[int, list[str]]]:
