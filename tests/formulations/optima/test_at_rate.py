@@ -13,7 +13,7 @@ from hypothesis import strategies as st
 from formulations import Conditions, InputError, Limits, Problem, check, free_form, load
 from formulations.motion.interpolation import joined
 from formulations.motion.trajectory import Trajectory
-from formulations.optima.control_rate import AtPoints, at_rate
+from formulations.optima.at_rate.motion import AtPoints, at_rate
 
 
 @functools.cache
