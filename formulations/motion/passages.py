@@ -1,0 +1,112 @@
+"""When a motion from elsewhere passes the waypoints, and by how much it misses them.
+
+A file holds points, not waypoints. Of all increasing choices of times, one per waypoint from the start to
+the end of the motion, that with the least sum of distances is found: the local minima of the distance to
+each waypoint are the candidates, and dynamic programming chooses among them.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import numpy as np
+
+from formulations.motion.trajectory import Trajectory
+from formulations.problem.arrays import Array
+
+_SAMPLES = 8  # per piece, where the search for local minima starts
+_GOLDEN = 0.5 * (5.0**0.5 - 1.0)
+_SECTIONS = 35  # golden sections: to 1e-7 of two samples
+_NEWTON = 3  # steps from there
+_CANDIDATES = 200  # per waypoint, the nearest ones
+
+
+@dataclass(frozen=True)
+class Passages:
+    """Times and distances at which a motion passes waypoints.
+
+    Attributes
+    ----------
+    times : Array, shape (n_waypoints,) [s]
+        Not decreasing, from the start to the end of the motion.
+    misses : Array, shape (n_waypoints, dof) [rad]
+        Position less waypoint at these times.
+    """
+
+    times: Array
+    misses: Array
+
+
+def passages(trajectory: Trajectory, waypoints: Array) -> Passages:
+    """Find the times at which a motion passes waypoints in their order.
+
+    Parameters
+    ----------
+    trajectory : Trajectory
+        The motion.
+    waypoints : Array, shape (n_waypoints, dof) [rad]
+        Positions to pass, at least two; the first at the start and the last at the end.
+
+    Returns
+    -------
+    Passages
+        Times and misses; a waypoint that is not passed gets the time of its nearest approach.
+    """
+    total = trajectory.seconds
+    candidates = [np.array([0.0])]
+    candidates += [_approaches(trajectory, waypoint) for waypoint in waypoints[1:-1]]
+    candidates.append(np.array([total]))
+    distances = [
+        np.abs(trajectory.at(times) - waypoint).max(axis=1)
+        for times, waypoint in zip(candidates, waypoints, strict=True)
+    ]
+    # least sum of distances up to each candidate, and the candidate before it
+    cost, before = distances[0], []
+    for k in range(1, len(waypoints)):
+        order = np.argsort(candidates[k - 1], kind="stable")
+        best = np.minimum.accumulate(cost[order])
+        where = order[np.maximum.accumulate(np.where(cost[order] <= best, np.arange(len(order)), 0))]
+        allowed = np.searchsorted(candidates[k - 1][order], candidates[k], side="right") - 1
+        reachable = allowed >= 0
+        cost = np.where(reachable, best[allowed], np.inf) + distances[k]
+        before.append(where[allowed])
+    chosen = [int(cost.argmin())]
+    for previous in reversed(before):
+        chosen.append(int(previous[chosen[-1]]))
+    times = np.array([candidates[k][i] for k, i in enumerate(reversed(chosen))])
+    return Passages(times, trajectory.at(times) - waypoints)
+
+
+def _approaches(trajectory: Trajectory, waypoint: Array) -> Array:
+    """Times of the nearest local minima of the distance to one waypoint, both ends included [s]."""
+    steps = np.linspace(0.0, 1.0, _SAMPLES, endpoint=False)
+    times = (trajectory.breaks[:-1, None] + trajectory.durations[:, None] * steps).ravel()
+    times = np.append(times, trajectory.seconds)
+    distance = np.square(trajectory.at(times) - waypoint).sum(axis=1)
+    padded = np.concatenate([[np.inf], distance, [np.inf]])
+    lowest = (distance <= padded[:-2]) & (distance <= padded[2:])
+    # of a standstill, the first and the last moment are enough
+    inner = np.convolve(lowest, [1, 1, 1], mode="same") == 3
+    found = np.flatnonzero(lowest & ~inner)
+    if len(found) > _CANDIDATES:
+        found = found[np.argsort(distance[found], kind="stable")[:_CANDIDATES]]
+    low, high = times[np.maximum(found - 1, 0)], times[np.minimum(found + 1, len(times) - 1)]
+
+    def away(at: Array) -> Array:
+        return np.asarray(np.square(trajectory.at(at) - waypoint).sum(axis=1))
+
+    for _ in range(_SECTIONS):
+        left, right = low + (high - low) * (1.0 - _GOLDEN), low + (high - low) * _GOLDEN
+        is_left = away(left) <= away(right)
+        low, high = np.where(is_left, low, left), np.where(is_left, right, high)
+    at = 0.5 * (low + high)
+    for _ in range(_NEWTON):  # of the derivative of half the squared distance
+        error, speed = trajectory.at(at) - waypoint, trajectory.at(at, 1)
+        slope = (speed * error).sum(axis=1)
+        curvature = np.square(speed).sum(axis=1) + (trajectory.at(at, 2) * error).sum(axis=1)
+        with np.errstate(divide="ignore", invalid="ignore"):
+            step = np.nan_to_num(np.where(curvature > 0.0, slope / curvature, 0.0))
+        nearer = np.clip(at - step, 0.0, trajectory.seconds)
+        at = np.where(away(nearer) <= away(at), nearer, at)
+    at = np.where(away(at) <= distance[found], at, times[found])
+    return np.unique(np.concatenate([[0.0], at, [trajectory.seconds]]))

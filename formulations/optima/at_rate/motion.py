@@ -1,0 +1,214 @@
+"""The fastest motion again, such that the points of a file describe it exactly.
+
+A controller joins the points of a file by quintics. Between two points where the jerk of the motion
+switches, that quintic overshoots: at 125 points per second up to 1.7 times the jerk limit. The motion of
+this module switches its jerk at points of the file only. Then each quintic *is* the cubic between two
+points, and the file keeps the limits that the motion keeps.
+
+The passage times are rounded up to points of the file first. With these fixed, the joints no longer
+depend on each other, and each of them is a linear program: its jerk is constant on cells, its states
+(position, velocity, acceleration) at the ends of the cells are variables, and the least share of the jerk
+limit is asked for. Cells are one point wide where the jerk of the given motion switches, and wide elsewhere.
+Velocities and positions inside a cell are bounded by their Bernstein coefficients.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import numpy as np
+from scipy.special import factorial
+
+from formulations.motion.trajectory import Trajectory
+from formulations.motion.verdict import check
+from formulations.optima.at_rate.joint_program import JointBounds, integrated, least_jerk
+from formulations.optima.at_rate.points import SwitchPoints
+from formulations.optima.at_rate.rounding import least_distance, margins
+from formulations.problem.arrays import Array
+from formulations.problem.conditions import Conditions
+from formulations.problem.errors import InputError, NoFeasibleMotion
+from formulations.problem.problem import Problem
+
+MOST_POINTS = 5_000_000
+_EXTRA = (0, 1, 2, 4, 8, 16, 32)  # further periods per segment, tried in this order
+_STRETCHES = (1e-6, 1e-5, 1e-4, 1e-3, 1e-2)  # the same where points are not tied to a rate
+_LARGEST_MARGIN = 0.02  # a file at a higher rate would be more rounding than motion
+
+
+@dataclass(frozen=True)
+class AtPoints:
+    """A motion whose jerk switches at the points of a file only.
+
+    Attributes
+    ----------
+    trajectory : Trajectory
+        The motion; cubic on every piece.
+    times : Array, shape (n_points,) [s]
+        The points of the file, whole nanoseconds, the end included.
+    margin : float
+        Share of the jerk limit that is left free for the rounding of positions and times.
+    """
+
+    trajectory: Trajectory
+    times: Array
+    margin: float
+
+
+def at_rate(
+    problem: Problem,
+    trajectory: Trajectory,
+    rate: float | None,
+    *,
+    conditions: Conditions | None = None,
+) -> AtPoints:
+    """Compute the motion near a given one that a file with points at a rate describes exactly.
+
+    Parameters
+    ----------
+    problem : Problem
+        Waypoints and limits that the motion keeps.
+    trajectory : Trajectory
+        A motion that keeps them, usually the fastest one. Its passage times and switching times are the
+        starting point.
+    rate : float or None [1/s]
+        SwitchPoints per second. None: points where the jerk switches, at least so far apart that rounding does
+        not matter.
+    conditions : Conditions, optional
+        What else was asked of the given motion.
+
+    Returns
+    -------
+    AtPoints
+        The motion and the times of its points. It was judged by ``check``.
+
+    Raises
+    ------
+    InputError
+        The rate is not positive, or asks for more than 5,000,000 points, or is so high that the
+        rounding of positions hides the jerk; a moving joint has no acceleration limit; a passage time
+        that was asked for lies between two points.
+    NoFeasibleMotion
+        No motion was found even with 32 further periods per segment.
+    """
+    asked = conditions or Conditions()
+    _require_acceleration(problem)
+    if rate is not None and not (np.isfinite(rate) and rate > 0.0):
+        raise InputError(f"rate: {rate:g} points per second; a positive number is needed")
+    if rate is not None and trajectory.seconds * rate > MOST_POINTS:
+        raise InputError(
+            f"rate: {rate:g} points per second over {trajectory.seconds:.4g} s are "
+            f"{trajectory.seconds * rate:.3g} points; at most {MOST_POINTS} are written"
+        )
+    least = least_distance(problem, trajectory.seconds, _LARGEST_MARGIN)
+    if rate is not None and rate * least > 1.0:
+        raise InputError(
+            f"rate: {rate:g} points per second; beyond {1.0 / least:.4g} the rounding of positions to "
+            "double precision takes more than 2 % of the jerk limit"
+        )
+    verdict = None
+    for patience in _EXTRA if rate is not None else _STRETCHES:
+        grid = (
+            SwitchPoints.at_rate(problem, trajectory, rate, int(patience), asked)
+            if rate is not None
+            else SwitchPoints.at_switches(problem, trajectory, patience, asked)
+        )
+        found = _solve(problem, trajectory, grid, asked)
+        if found is None:
+            continue
+        verdict = check(problem, found.trajectory, conditions=asked)
+        if verdict.feasible:
+            return found
+    reason = "" if verdict is None else f"; the last one: {verdict.faults[0]}"
+    points = "at the switching times" if rate is None else f"at {rate:g} points per second"
+    raise NoFeasibleMotion(
+        f"no motion with its jerk constant between points {points} was found{reason}"
+    )
+
+
+def _require_acceleration(problem: Problem) -> None:
+    """Refuse a moving joint without an acceleration limit: its first acceleration would be unbounded."""
+    for joint in problem.moving_joints:
+        if not np.isfinite(problem.limits.acceleration[joint]):
+            raise InputError(
+                f"limits.acceleration: joint {joint + 1} has none; a controller cannot follow a motion "
+                "whose velocity jumps, so give a limit for this joint"
+            )
+
+
+def _solve(
+    problem: Problem, trajectory: Trajectory, grid: SwitchPoints, asked: Conditions
+) -> AtPoints | None:
+    """All joints on one grid; None where one of them has no motion."""
+    times = grid.times
+    if len(times) < 2:
+        return None
+    shares = margins(problem, float(times[-1]), float(np.diff(times).min()))
+    bounds = _Bounds.of(problem, asked, shares)
+    jerks = np.zeros((len(times) - 1, problem.dof))
+    starts = np.zeros((3, problem.dof))
+    starts[0] = problem.waypoints[0]
+    used = {0, len(times) - 1, *grid.waypoints.tolist()}
+    passed = trajectory.passage_times
+    for joint in range(problem.dof):
+        if not np.ptp(problem.waypoints[:, joint]) > 0.0 and not bounds.moves_at_ends(joint):
+            continue
+        cells = grid.cells(_switches(trajectory, joint), passed)
+        found = least_jerk(times[cells], np.searchsorted(cells, grid.waypoints), bounds.of_joint(joint))
+        if found is None:
+            return None
+        values, starts[:, joint] = found
+        jerks[:, joint] = np.repeat(values, np.diff(cells))
+        used.update(cells.tolist())
+    breaks = np.array(sorted(used))
+    lengths = np.diff(times[breaks])
+    states = integrated(lengths, jerks[breaks[:-1]], starts)[:, :-1]
+    coefficients = np.stack([states[0], states[1], states[2] / 2.0, jerks[breaks[:-1]] / 6.0], axis=-1)
+    motion = Trajectory(lengths, coefficients, times[grid.waypoints])
+    return AtPoints(motion, times, float(shares[2][np.isfinite(problem.limits.jerk)].max(initial=0.0)))
+
+
+def _switches(trajectory: Trajectory, joint: int) -> Array:
+    """Times at which acceleration or jerk of one joint jumps, both ends included [s]."""
+    inner = trajectory.breaks[1:-1]
+    own = np.zeros(len(inner), dtype=bool)
+    c = trajectory.coefficients[:, joint]
+    for order in (2, 3):
+        powers = np.arange(order, c.shape[1])
+        factors = factorial(powers) / factorial(powers - order)
+        if not len(powers):
+            continue
+        ends = (factors * c[:, powers] * trajectory.durations[:, None] ** (powers - order)).sum(axis=1)
+        starts = factors[0] * c[:, order]
+        size = max(np.abs(starts).max(), np.abs(ends).max())
+        own |= np.abs(starts[1:] - ends[:-1]) > 1e-6 * size
+    return np.concatenate([[0.0], inner[own], [trajectory.seconds]])
+
+
+@dataclass(frozen=True)
+class _Bounds:
+    """Limits less the margins, for all joints."""
+
+    problem: Problem
+    asked: Conditions
+    limits: Array  # (3, n_segments, dof)
+
+    @staticmethod
+    def of(problem: Problem, asked: Conditions, shares: Array) -> _Bounds:
+        limits = asked.derivatives(problem) * (1.0 - np.minimum(shares, 0.5))[:, None]
+        return _Bounds(problem, asked, limits)
+
+    def moves_at_ends(self, joint: int) -> bool:
+        return bool(self.asked.end_velocities(self.problem)[:, joint].any())
+
+    def of_joint(self, joint: int) -> JointBounds:
+        problem = self.problem
+        return JointBounds(
+            waypoints=problem.waypoints[:, joint],
+            velocity=self.limits[0, :, joint],
+            acceleration=self.limits[1, :, joint],
+            jerk=self.limits[2, :, joint],
+            position=self.asked.position_bounds(problem)[:, joint],
+            end_velocity=self.asked.end_velocities(problem)[:, joint],
+            rests=bool(np.isfinite(problem.limits.jerk[joint])),
+            stops=tuple(sorted(self.asked.stops)),
+        )
