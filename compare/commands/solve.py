@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import sys
-from dataclasses import asdict
 from typing import Annotated, Any
 
 from cyclopts import Parameter
@@ -64,7 +63,7 @@ def solve(
     ]
     if held is not None and held.holds:
         text += ["\nwhat limits the fastest motion", *(f"  {line}" for line in held.lines()[:_LINES])]
-    diagnosis = None if held is None else asdict(held)
+    diagnosis = None if held is None else held.to_json()
     show("\n".join(text), {**answer.to_json(), "diagnosis": diagnosis}, json)
     say = sys.stderr if json == "-" else sys.stdout
     if reason := _unsolved(answer):

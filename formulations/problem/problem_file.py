@@ -10,10 +10,10 @@ from typing import Any
 from formulations.families import FAMILIES
 from formulations.problem.arrays import Array
 from formulations.problem.errors import InputError
+from formulations.problem.joint_words import UNITS
 from formulations.problem.poses import POSED, waypoints_of_poses
 from formulations.problem.problem import Limits, Problem
 from formulations.problem.toml_values import (
-    UNITS,
     known_keys,
     read_choice,
     read_limit,

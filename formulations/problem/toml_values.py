@@ -14,8 +14,6 @@ import numpy as np
 from formulations.problem.arrays import Array
 from formulations.problem.errors import InputError
 
-UNITS = {"rad": 1.0, "deg": math.pi / 180.0}  # rad per unit
-
 
 def known_keys(kind: str, table: dict[str, Any], known: tuple[str, ...]) -> None:
     """Refuse keys of a table that are not known.
