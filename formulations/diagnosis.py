@@ -175,7 +175,8 @@ def diagnose(problem: Problem, found: FreeForm, *, more: float = 0.1, top: int =
             faster = free_form(_raised(problem, int(o), int(j), 1.0 + more))
             savings.append(Saving(int(j), QUANTITIES[int(o) + 1], more, found.seconds - faster.seconds))
     savings.sort(key=lambda saving: -saving.seconds)
-    return Diagnosis(found.seconds, tuple(holds), tuple(savings), found.seconds - float(held.sum()), problem.names)
+    left = found.seconds - float(held.sum())
+    return Diagnosis(found.seconds, tuple(holds), tuple(savings), left, problem.names)
 
 
 def _held(problem: Problem, found: FreeForm) -> Array:

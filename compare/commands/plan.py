@@ -9,9 +9,10 @@ import numpy as np
 from cyclopts import Parameter
 
 from compare.commands import DONE
-from compare.commands.options import Export, Gap, Json, ProblemFile, Rate
+from compare.commands.options import Export, Gap, Json, Rate
+from compare.commands.problem_options import FileOrRobot, OwnRobotOptions, problem_of
 from compare.screen import show, stages
-from formulations import Conditions, FreeForm, InputError, NoFeasibleMotion, Problem, free_form, load
+from formulations import Conditions, FreeForm, InputError, NoFeasibleMotion, Problem, free_form
 from formulations.motion.motion_file import write_motion
 from formulations.motion.verdict import QUANTITIES
 from formulations.problem.arrays import Array
@@ -21,9 +22,10 @@ Velocities = Annotated[str | None, Parameter(metavar="V,V,..", allow_leading_hyp
 
 
 def plan(
-    file: ProblemFile,
+    file: FileOrRobot = None,
     /,
     *,
+    own: OwnRobotOptions = None,
     stop: Annotated[list[int] | None, Parameter(metavar="K")] = None,
     passage: Annotated[list[str] | None, Parameter(name="--pass", metavar="K=T")] = None,
     total: Annotated[float | None, Parameter(metavar="T")] = None,
@@ -51,7 +53,7 @@ def plan(
     end_velocity
         Velocity at the end, in the same way.
     """
-    problem = load(file)
+    problem = problem_of(file, own)
     conditions = Conditions(
         passage=_passages(passage or []),
         total=total,

@@ -8,9 +8,10 @@ from typing import Annotated, Any
 from cyclopts import Parameter
 
 from compare.commands import BAD_INPUT, DONE, FAILED
-from compare.commands.options import Export, Gap, Json, ProblemFile, Rate, Seed, writable
+from compare.commands.options import Export, Gap, Json, Rate, Seed, writable
+from compare.commands.problem_options import FileOrRobot, OwnRobotOptions, problem_of
 from compare.screen import show, stages, table
-from formulations import RUNGS, InputError, Ladder, ladder, load
+from formulations import RUNGS, InputError, Ladder, ladder
 from formulations.diagnosis import diagnose
 from formulations.motion.motion_file import write_motion
 from formulations.proofs.certificate import write_certificate
@@ -20,9 +21,10 @@ _PROOF = {"lower": "proved", "upper": "verified", "reference": "discretised"}
 
 
 def solve(
-    file: ProblemFile,
+    file: FileOrRobot = None,
     /,
     *,
+    own: OwnRobotOptions = None,
     json: Json = None,
     certificate: Annotated[str | None, Parameter(metavar="FILE", validator=writable)] = None,
     motion_certificate: Annotated[str | None, Parameter(metavar="FILE", validator=writable)] = None,
@@ -43,7 +45,7 @@ def solve(
     motion_certificate
         Write the proof of free_form_lower, which holds for every motion.
     """
-    problem = load(file)
+    problem = problem_of(file, own)
     with stages(problem.name) as stage:
         answer = ladder(
             problem,

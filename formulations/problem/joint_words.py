@@ -164,6 +164,4 @@ def _listed(key: str, given: Iterable[str]) -> tuple[str, ...]:
     try:
         return tuple(given)
     except TypeError:
-        raise InputError(
-            f"{key}: expected a list of one text per joint, got {given!r:.50}"
-        ) from None
+        raise InputError(f"{key}: expected a list of one text per joint, got {given!r:.50}") from None

@@ -13,12 +13,14 @@ from typing import TYPE_CHECKING, Any
 
 from formulations.problem.arrays import Array
 from formulations.problem.errors import InputError
+from formulations.problem.problem import Problem
 from formulations.problem.toml_values import read_number, read_text, shown
 
 if TYPE_CHECKING:
     from formulations.robot import Robot
 
 SCALINGS = ("velocity_scaling", "acceleration_scaling", "jerk_scaling")
+MOST_WAYPOINTS = 1000  # the fastest motion through more takes hours, and nobody would see it begin
 ROBOT_KEYS = ("robot", "srdf", "group", "limits_file", "unlimited", "base", "tip", *SCALINGS)
 
 
@@ -110,6 +112,43 @@ def robot_of_keys(data: Mapping[str, Any], folder: Path) -> Robot:
     ).read()
 
 
+def problem_from(
+    files: RobotFiles, waypoints: Path, *, unit: str = "rad", length: str = "m"
+) -> Problem:
+    """Read a problem from files alone.
+
+    Parameters
+    ----------
+    files : RobotFiles
+        The robot.
+    waypoints : Path
+        A table, a JointTrajectory or poses.
+    unit : {"rad", "deg"}
+        Unit of angles in the waypoints, in messages and in reports.
+    length : {"m", "mm"}
+        Unit of lengths in the waypoints.
+
+    Returns
+    -------
+    Problem
+        Named after the file of waypoints.
+
+    Raises
+    ------
+    InputError
+        In one line that names the file, the joint and the value.
+    """
+    robot = files.read()
+    limits = robot.limits  # what is missing is asked for first
+    return Problem(
+        waypoints_from(waypoints, robot, unit, length),
+        limits,
+        name=waypoints.stem,
+        names=robot.names,
+        display_unit=unit,
+    )
+
+
 def read_texts(key: str, value: Any) -> tuple[str, ...]:
     """Read one text, or a list of them.
 
@@ -136,6 +175,27 @@ def read_texts(key: str, value: Any) -> tuple[str, ...]:
     return tuple(found)
 
 
+def require_few(key: str, count: int) -> None:
+    """Refuse more waypoints than are planned.
+
+    Parameters
+    ----------
+    key : str
+        Where they stand, for the message.
+    count : int
+        How many there are.
+
+    Raises
+    ------
+    InputError
+        More than ``MOST_WAYPOINTS``.
+    """
+    if count > MOST_WAYPOINTS:
+        raise InputError(
+            f"{key}: {count} waypoints; at most {MOST_WAYPOINTS} are planned, so thin them out"
+        )
+
+
 def waypoints_from(path: Path, robot: Robot, unit: str, length: str) -> Array:
     """Read a file of waypoints.
 
@@ -157,4 +217,6 @@ def waypoints_from(path: Path, robot: Robot, unit: str, length: str) -> Array:
     """
     from formulations.robot import waypoints_of
 
-    return waypoints_of(path, robot, unit=unit, length=length)
+    found = waypoints_of(path, robot, unit=unit, length=length)
+    require_few(str(path), len(found))
+    return found

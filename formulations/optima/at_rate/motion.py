@@ -130,8 +130,8 @@ def _require_acceleration(problem: Problem) -> None:
     for joint in problem.moving_joints:
         if not np.isfinite(problem.limits.acceleration[joint]):
             raise InputError(
-                f"limits.acceleration: {problem.joint_name(joint)} has none; a controller cannot follow a motion "
-                "whose velocity jumps, so give a limit for this joint"
+                f"limits.acceleration: {problem.joint_name(joint)} has none; a controller cannot follow a "
+                "motion whose velocity jumps, so give a limit for this joint"
             )
 
 

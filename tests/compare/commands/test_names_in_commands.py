@@ -46,9 +46,7 @@ def test_a_velocity_on_the_command_line_is_in_the_unit_of_the_file(
     assert "joint elbow: 121 deg/s is over the limit 120 deg/s" in capsys.readouterr().err
 
 
-def test_degrees_read_as_radians_get_a_hint(
-    tmp_path: Path, capsys: pytest.CaptureFixture[str]
-) -> None:
+def test_degrees_read_as_radians_get_a_hint(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
     file = tmp_path / "mine.toml"
     file.write_text(TEXT.replace('unit = "deg"\n', ""))
     assert main(["plan", str(file)]) == 0
@@ -57,9 +55,7 @@ def test_degrees_read_as_radians_get_a_hint(
 
 
 def test_a_diagnosis_names_joints() -> None:
-    problem = Problem(
-        [[0.0, 0.0], [1.0, 0.1]], {"velocity": 100, "acceleration": 4}, names=("a", "b")
-    )
+    problem = Problem([[0.0, 0.0], [1.0, 0.1]], {"velocity": 100, "acceleration": 4}, names=("a", "b"))
     found = diagnose(problem, free_form(problem, tolerance=1e-6))
     assert found.lines()[0].startswith("joint a's acceleration holds segment 1 for 1 of 1 s")
     rows = found.to_json()["holds"]

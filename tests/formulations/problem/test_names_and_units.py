@@ -51,13 +51,17 @@ def test_waypoints_and_limits_suffice_and_degrees_are_an_argument() -> None:
 
 
 def test_a_prismatic_joint_stays_in_metres() -> None:
-    limits = Limits.of([90, 0.5], position=[[-180, 180], [0, 0.2]], dof=2, unit="deg", units=("rad", "m"))
+    limits = Limits.of(
+        [90, 0.5], position=[[-180, 180], [0, 0.2]], dof=2, unit="deg", units=("rad", "m")
+    )
     np.testing.assert_allclose(limits.velocity, [math.pi / 2, 0.5])
     np.testing.assert_allclose(limits.position, [[-math.pi, math.pi], [0, 0.2]])
     problem = Problem([[0, 0.1], [90, 0.2]], limits, unit="deg")
     np.testing.assert_allclose(problem.waypoints[1], [math.pi / 2, 0.2])
     assert problem.units == ("rad", "m")
-    with pytest.raises(InputError, match=r"row 2, joint 2: 0\.3 m lies outside limits\.position \[0, 0\.2\] m"):
+    with pytest.raises(
+        InputError, match=r"row 2, joint 2: 0\.3 m lies outside limits\.position \[0, 0\.2\] m"
+    ):
         Problem([[0, 0.1], [90, 0.3]], limits, unit="deg")
 
 
@@ -79,7 +83,7 @@ def test_a_prismatic_joint_stays_in_metres() -> None:
         (lambda: Problem([[0, 0], [1, 1]], {"jerk": 1}), "limits.velocity: missing"),
         (lambda: Problem([[0, 0], [1, 1]], 3.0), "limits: expected Limits"),
         (lambda: Problem([[0, 0], [1e300, 1]], {"velocity": 1}), "row 2, joint 1: 1e+300 rad is beyond"),
-        (lambda: Limits.of(1.0, [1, 0], dof=2, unit="deg", names=NAMES), "joint elbow: 0 deg/s² is not positive"),
+        (lambda: Limits.of(1.0, [1, 0], dof=2, unit="deg", names=NAMES), "elbow: 0 deg/s² is not positive"),
     ],
 )  # fmt: skip
 def test_a_message_names_the_argument_the_joint_and_the_unit(make: object, words: str) -> None:
