@@ -43,7 +43,7 @@ def test_the_options_and_the_file_state_the_same_problem(
 
 
 def test_joints_are_chosen_by_name(folder: Path, capsys: pytest.CaptureFixture[str]) -> None:
-    (folder / "two.csv").write_text("0,0\n0.1,1\n")
+    (folder / "two.csv").write_text("0,0\n0.19,0.1\n")
     own = (*OWN[:4], "--waypoints", "two.csv", "--joints", "slide,turn")
     assert main(["plan", *own]) == 0
     assert "m/s" in capsys.readouterr().out
