@@ -12,7 +12,7 @@ from compare.commands import DONE
 from compare.commands.options import Export, Gap, Json, ProblemFile, Rate
 from compare.screen import show, stages
 from formulations import Conditions, FreeForm, InputError, NoFeasibleMotion, Problem, free_form, load
-from formulations.motion.motion_file import write_motion
+from formulations.motion.files.motion_file import write_motion
 from formulations.problem.arrays import Array
 
 Velocities = Annotated[str | None, Parameter(metavar="V,V,..", allow_leading_hyphen=True)]

@@ -13,7 +13,7 @@ from compare.commands.options import Export, Gap, Json, ProblemFile, Rate, Seed,
 from compare.screen import show, stages, table
 from formulations import RUNGS, InputError, Ladder, ladder, load
 from formulations.diagnosis import diagnose
-from formulations.motion.motion_file import write_motion
+from formulations.motion.files.motion_file import write_motion
 from formulations.proofs.certificate import write_certificate
 
 _LINES = 8  # of what limits the fastest motion
