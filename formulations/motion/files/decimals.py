@@ -38,7 +38,7 @@ def decimals_of(columns: Array) -> Indices:
     """
     largest = np.abs(columns).max(axis=0, initial=0.0)
     exponents = np.floor(np.log10(np.where(largest > 0.0, largest, 1.0)))
-    return np.clip(_DIGITS - 1 - exponents, 0, _MOST_DECIMALS).astype(np.intp)
+    return np.asarray(np.clip(_DIGITS - 1 - exponents, 0, _MOST_DECIMALS), dtype=np.intp)
 
 
 def time_decimals(times: Array) -> int:
@@ -239,7 +239,8 @@ def _number(data: Any, at: int, powers: Any) -> tuple[int, float, int]:
             at += 1
         first, exponent = at, 0
         while at < size and 48 <= data[at] <= 57:
-            exponent = min(10 * exponent + np.int64(data[at] - 48), 10_000)
+            if exponent < 10_000:
+                exponent = 10 * exponent + int(data[at]) - 48
             at += 1
         if at == first:
             return at, 0.0, 0
@@ -248,10 +249,7 @@ def _number(data: Any, at: int, powers: Any) -> tuple[int, float, int]:
         return at, 0.0, 0
     if whole > 0 and (digits > 18 or places < 0 or places > 22):
         return at, float(at - begin), 2
-    if whole == 0:
-        value = 0.0
-    else:
-        value = _quotient(whole, powers[places])
+    value = 0.0 if whole == 0 else _quotient(whole, powers[places])
     return at, -value if negative else value, 1
 
 

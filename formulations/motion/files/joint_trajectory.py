@@ -20,7 +20,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from formulations.motion.files.checked import numbered, named, stacked
+from formulations.motion.files.checked import named, numbered, stacked
 from formulations.motion.files.decimals import decimals_of, write_records
 from formulations.motion.files.motion_points import MotionPoints
 from formulations.motion.files.records import Records, json_records, yaml_records
@@ -194,9 +194,9 @@ def _message(top: Entry) -> _Message:
     if values[0] is None:
         raise points[0].error("positions is empty")
     stamps = [_stamp(found["time_from_start"]) for found in keys]
-    whole = [nanosecond is not None for _, nanosecond in stamps]
-    if all(whole):
-        return _Message(tuple(names), *np.array(stamps, dtype=np.float64).T, values)
+    if all(nanosecond is not None for _, nanosecond in stamps):
+        whole = np.array(stamps, dtype=np.float64)
+        return _Message(tuple(names), whole[:, 0], whole[:, 1], values)
     seconds = [s if ns is None else (s * 1e9 + ns) / 1e9 for s, ns in stamps]
     return _Message(tuple(names), np.array(seconds), None, values)
 
@@ -209,7 +209,7 @@ def _values(
     if not any(lists):
         return None
     rows = []
-    for index, (point, entries) in enumerate(zip(points, lists, strict=True)):
+    for point, entries in zip(points, lists, strict=True):
         if not entries:
             other = next(k for k, entry in enumerate(lists) if entry)
             raise point.error(

@@ -41,7 +41,8 @@ def points_of(trajectory: Trajectory, times: Array, names: tuple[str, ...] = ())
     MotionPoints
         With velocities and accelerations.
     """
-    return MotionPoints(times, *(trajectory.at(times, order) for order in range(3)), names=names)
+    positions, velocities, accelerations = (trajectory.at(times, order) for order in range(3))
+    return MotionPoints(times, positions, velocities, accelerations, names)
 
 
 def encode_motion(

@@ -86,7 +86,8 @@ def read_npz(data: bytes, file: str) -> MotionPoints:
             )
     found = [arrays[key].astype(np.float64) if key in arrays else None for key in ("time", *QUANTITIES)]
     time, position, velocity, acceleration = found
-    assert time is not None and position is not None
+    assert time is not None
+    assert position is not None
     return MotionPoints(
         time,
         position,
