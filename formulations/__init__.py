@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from formulations.climb import Ladder
 from formulations.families import FAMILIES
-from formulations.motion.motion_file import read_motion, write_motion
+from formulations.motion.files.motion_file import read_motion, write_motion
 from formulations.motion.trajectory import Trajectory
 from formulations.motion.verdict import Verdict, check
 from formulations.optima.family.optimum import (

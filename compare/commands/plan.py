@@ -13,8 +13,8 @@ from compare.commands.options import Export, Gap, Json, Rate
 from compare.commands.problem_options import FileOrRobot, OwnRobotOptions, problem_of
 from compare.screen import show, stages
 from formulations import Conditions, FreeForm, InputError, NoFeasibleMotion, Problem, free_form
-from formulations.motion.motion_file import write_motion
 from formulations.motion.verdict import QUANTITIES
+from formulations.optima.at_rate.export import check_export, export_motion
 from formulations.problem.arrays import Array
 from formulations.problem.joint_words import factors, shown_unit
 
@@ -61,6 +61,8 @@ def plan(
         start_velocity=_velocity("--start-velocity", start_velocity, problem),
         end_velocity=_velocity("--end-velocity", end_velocity, problem),
     )
+    if export is not None:
+        check_export(export, problem, rate, conditions)
     try:
         with stages(problem.name) as stage:
             found = free_form(
@@ -75,8 +77,8 @@ def plan(
     if export is not None:
         if found.trajectory is None:
             raise InputError("--export: no joint moves, so there is no motion to write")
-        write_motion(export, found.trajectory, rate=rate)
-        text += f"\n\n{export}: written"
+        written = export_motion(export, problem, found.trajectory, rate, conditions=conditions)
+        text = "\n".join([text, "", *written.lines()])
     show(text, as_json(problem, found), json)
     return DONE
 

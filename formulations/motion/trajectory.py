@@ -13,6 +13,8 @@ from formulations.motion.extremes import Extremes, differentiated, evaluated, fi
 from formulations.problem.arrays import Array
 from formulations.problem.errors import InputError
 
+MOST_SAMPLES = 5_000_000  # of a motion at a fixed rate
+
 
 @dataclass(frozen=True)
 class Trajectory:
@@ -120,12 +122,37 @@ class Trajectory:
         InputError
             For a rate that is not positive.
         """
+        times = self.sample_times(rate)
+        return times, np.stack([self.at(times, order) for order in range(4)])
+
+    def sample_times(self, rate: float) -> Array:
+        """Times at a fixed rate, the end included.
+
+        Parameters
+        ----------
+        rate : float
+            Samples per second [1/s].
+
+        Returns
+        -------
+        Array, shape (m,)
+            Multiples of 1 / rate, then the final time [s].
+
+        Raises
+        ------
+        InputError
+            For a rate that is not positive, and for more than 5,000,000 samples.
+        """
         if not (np.isfinite(rate) and rate > 0.0):
             raise InputError(f"trajectory: a sample rate must be positive, got {rate:g}")
+        if self.seconds * rate > MOST_SAMPLES:
+            raise InputError(
+                f"trajectory: a sample rate of {rate:g} over {self.seconds:.4g} s makes "
+                f"{self.seconds * rate:.3g} samples; at most {MOST_SAMPLES} are made"
+            )
         # drop a last multiple that lies within rounding of the final time: the final time stands for it
         steps = int(np.ceil(self.seconds * rate * (1.0 - 1e-12) - 1e-9))
-        times = np.append(np.arange(steps) / rate, self.seconds)
-        return times, np.stack([self.at(times, order) for order in range(4)])
+        return np.append(np.arange(steps) / rate, self.seconds)
 
     def stretched(self, factor: float) -> Trajectory:
         """Return the same path at another pace.

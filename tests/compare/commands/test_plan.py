@@ -10,7 +10,7 @@ import pytest
 
 from compare.__main__ import main
 from formulations import load
-from formulations.motion.motion_file import read_motion
+from formulations.motion.files.motion_file import read_motion
 
 
 def test_a_stop_and_a_passage_are_kept_and_the_file_holds_the_motion(
