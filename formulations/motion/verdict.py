@@ -150,7 +150,8 @@ def check(
     if trajectory.dof != problem.dof:
         raise InputError(f"trajectory: {trajectory.dof} joints, the problem has {problem.dof}")
     targets = problem.waypoints if through else problem.waypoints[[0, -1]]
-    known = len(trajectory.passage_times) == len(targets)
+    times = trajectory.passage_times
+    known = len(times) == len(targets) and bool(((times >= 0.0) & (times <= trajectory.seconds)).all())
     faults = [
         *_waypoint_faults(problem, trajectory, targets),
         *_smoothness_faults(problem, trajectory, asked, known),

@@ -15,8 +15,8 @@ from compare.benchmark.rows import Row, durations_of
 from compare.benchmark.statistics import best_claim, best_row
 from compare.report.style import BLACK, BLUE, GREY, VERMILION, styled
 from formulations import FAMILIES, Problem, Trajectory, check
+from formulations.motion.picture import samples
 from formulations.motion.verdict import QUANTITIES
-from formulations.problem.arrays import Array
 from formulations.problem.joint_words import factors, shown_unit
 
 
@@ -119,23 +119,3 @@ def _curves(
         axes.plot(motion.passage_times, problem.waypoints[:, joint] * unit, "o", color=BLUE, ms=3)
     for passage in motion.passage_times[1:-1]:
         axes.axvline(passage, color=GREY, lw=0.4, alpha=0.6)
-
-
-def samples(motion: Trajectory, joint: int, order: int) -> tuple[Array, Array]:
-    """Return the points of a curve; pieces are sampled apart, so that a jump of the jerk is vertical.
-
-    Parameters
-    ----------
-    motion : Trajectory
-    joint : int
-    order : int
-        Derivative: 0 position to 3 jerk.
-
-    Returns
-    -------
-    times : Array, shape (m,) [s]
-    values : Array, shape (m,) [rad/s^order]
-    """
-    s = np.linspace(1e-9, 1.0 - 1e-9, 60)
-    t = (motion.breaks[:-1, None] + motion.durations[:, None] * s).ravel()
-    return t, motion.at(t, order)[:, joint]

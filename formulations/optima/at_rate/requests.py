@@ -35,7 +35,7 @@ def require_exportable(problem: Problem, seconds: float, rate: float | None) -> 
         if not np.isfinite(problem.limits.acceleration[joint]):
             raise InputError(
                 f"limits.acceleration: {problem.joint_name(joint)} has none; a controller cannot follow a "
-                "whose velocity jumps, so give a limit for this joint"
+                "motion whose velocity jumps, so give a limit for this joint"
             )
     if rate is None:
         return
