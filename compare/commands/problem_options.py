@@ -79,11 +79,11 @@ class OwnRobot:
                 raise InputError(f"--{key}: missing; --robot URDF and --waypoints FILE go together")
         files = RobotFiles(
             robot=Path(self.robot or ""),
-            joints=_names(self.joints),
+            joints=names(self.joints),
             group=self.group,
             srdf=None if self.srdf is None else Path(self.srdf),
             limits=tuple(Path(path) for path in self.limits),
-            unlimited=_names(self.unlimited) or (),
+            unlimited=names(self.unlimited) or (),
             tip=self.tip,
         )
         return problem_from(files, Path(self.waypoints or ""), unit=self.unit or "rad")
@@ -127,5 +127,16 @@ def problem_of(file: str | None, own: OwnRobot | None) -> Problem:
     return problem
 
 
-def _names(text: str | None) -> tuple[str, ...] | None:
+def names(text: str | None) -> tuple[str, ...] | None:
+    """Read names that are separated by commas.
+
+    Parameters
+    ----------
+    text : str or None
+        What was typed; None if the option was left out.
+
+    Returns
+    -------
+    tuple of str, or None
+    """
     return None if text is None else tuple(name.strip() for name in text.split(",") if name.strip())
