@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import sys
 from pathlib import Path
 
 import matplotlib as mpl
@@ -13,8 +12,7 @@ import formulations as f
 
 mpl.use("Agg")
 
-sys.path.insert(0, str(Path(__file__).parent / "problem"))
-from test_robot_keys import ARM, CSV, YAML
+from small_robot import ARM, CSV, YAML
 
 
 @pytest.fixture

@@ -9,13 +9,11 @@ from pathlib import Path
 
 import numpy as np
 import pytest
+from small_robot import ARM, CSV, YAML
 
 from compare.__main__ import main
 from compare.commands import new as module
 from formulations import load, parse
-
-sys.path.insert(0, str(Path(__file__).parents[2] / "formulations" / "problem"))
-from test_robot_keys import ARM, CSV, YAML
 
 
 @pytest.fixture

@@ -3,15 +3,12 @@
 from __future__ import annotations
 
 import json
-import sys
 from pathlib import Path
 
 import pytest
+from small_robot import ARM, CSV, FILE, YAML
 
 from compare.__main__ import main
-
-sys.path.insert(0, str(Path(__file__).parents[2] / "formulations" / "problem"))
-from test_robot_keys import ARM, CSV, FILE, YAML
 
 
 @pytest.fixture
