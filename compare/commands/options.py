@@ -278,11 +278,12 @@ Json = Annotated[
 Export = Annotated[
     str | None,
     Parameter(name="--export", metavar="FILE", validator=writable,
-              help="Write the fastest verified motion, as .csv or .json (a ROS JointTrajectory)."),
+              help="Write the fastest verified motion: .csv, .json or .yaml (a ROS JointTrajectory), .npz,"
+                   " or .pieces.json (exact polynomials). The file itself is judged before it is written."),
 ]  # fmt: skip
 Rate = Annotated[
     float | None,
     Parameter(name="--rate", metavar="HZ", validator=positive,
-              help="Points per second in that file; where the pieces of the motion meet if left out."),
+              help="Points per second in that file; where the jerk switches if left out."),
 ]  # fmt: skip
 Gap = Annotated[float, Parameter(name="--gap", validator=positive, help="Relative gap to be reached.")]

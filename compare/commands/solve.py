@@ -3,17 +3,17 @@
 from __future__ import annotations
 
 import sys
-from dataclasses import asdict
 from typing import Annotated, Any
 
 from cyclopts import Parameter
 
 from compare.commands import BAD_INPUT, DONE, FAILED
-from compare.commands.options import Export, Gap, Json, ProblemFile, Rate, Seed, writable
+from compare.commands.options import Export, Gap, Json, Rate, Seed, writable
+from compare.commands.problem_options import FileOrRobot, OwnRobotOptions, problem_of
 from compare.screen import show, stages, table
-from formulations import RUNGS, InputError, Ladder, ladder, load
+from formulations import RUNGS, InputError, Ladder, Problem, ladder
 from formulations.diagnosis import diagnose
-from formulations.motion.motion_file import write_motion
+from formulations.optima.at_rate.export import check_export, export_motion
 from formulations.proofs.certificate import write_certificate
 
 _LINES = 8  # of what limits the fastest motion
@@ -21,9 +21,10 @@ _PROOF = {"lower": "proved", "upper": "verified", "reference": "discretised"}
 
 
 def solve(
-    file: ProblemFile,
+    file: FileOrRobot = None,
     /,
     *,
+    own: OwnRobotOptions = None,
     json: Json = None,
     certificate: Annotated[str | None, Parameter(metavar="FILE", validator=writable)] = None,
     motion_certificate: Annotated[str | None, Parameter(metavar="FILE", validator=writable)] = None,
@@ -44,7 +45,9 @@ def solve(
     motion_certificate
         Write the proof of free_form_lower, which holds for every motion.
     """
-    problem = load(file)
+    problem = problem_of(file, own)
+    if export is not None:
+        check_export(export, problem, rate)
     with stages(problem.name) as stage:
         answer = ladder(
             problem,
@@ -64,14 +67,14 @@ def solve(
     ]
     if held is not None and held.holds:
         text += ["\nwhat limits the fastest motion", *(f"  {line}" for line in held.lines()[:_LINES])]
-    diagnosis = None if held is None else asdict(held)
+    diagnosis = None if held is None else held.to_json()
     show("\n".join(text), {**answer.to_json(), "diagnosis": diagnosis}, json)
     say = sys.stderr if json == "-" else sys.stdout
     if reason := _unsolved(answer):
         print(f"error: {problem.name}: no motion was found: {reason}", file=sys.stderr)
         return BAD_INPUT
     if export is not None:
-        print(f"\n{_export(export, answer, rate)}", file=say)
+        print(f"\n{_export(export, problem, answer, rate)}", file=say)
     wanted = {
         "family_lower": (certificate, answer.bound),
         "free_form_lower": (motion_certificate, answer.free_form_bound),
@@ -127,15 +130,15 @@ def _unsolved(answer: Ladder) -> str:
     return answer.rungs["free_form"].note or upper[0].note
 
 
-def _export(path: str, answer: Ladder, rate: float | None) -> str:
+def _export(path: str, problem: Problem, answer: Ladder, rate: float | None) -> str:
     """Write the fastest motion that passed the check, and say which it is."""
     verified = {key: answer.rungs[key].seconds or 0.0 for key in answer.trajectories}
     verified = {key: value for key, value in verified.items() if answer.rungs[key].kind == "upper"}
     if not verified:
         raise InputError("--export: there is no verified motion")
     key = min(verified, key=lambda key: verified[key])
-    write_motion(path, answer.trajectories[key], rate=rate)
-    return f"{path}: {key}, {verified[key]:.9g} s"
+    written = export_motion(path, problem, answer.trajectories[key], rate)
+    return "\n".join([f"{key}, {verified[key]:.9g} s", *written.lines()])
 
 
 def _proved(certificate: dict[str, Any]) -> float:

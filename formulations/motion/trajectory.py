@@ -13,6 +13,10 @@ from formulations.motion.extremes import Extremes, differentiated, evaluated, fi
 from formulations.problem.arrays import Array
 from formulations.problem.errors import InputError
 
+MOST_SAMPLES = 5_000_000  # of a motion at a fixed rate
+
+_ROUNDING = 1e-9  # share of the whole time by which a time may lie outside
+
 
 @dataclass(frozen=True)
 class Trajectory:
@@ -97,8 +101,26 @@ class Trajectory:
         -------
         Array, shape (..., dof)
             Values [rad/s^order].
+
+        Raises
+        ------
+        InputError
+            For a time before the start or after the end by more than rounding, and a negative order.
         """
-        return np.asarray(self._piecewise(np.asarray(times, dtype=np.float64), nu=order))
+        if order < 0:
+            raise InputError(f"order: {order} is no order of a derivative; 0 is the position")
+        asked = np.asarray(times, dtype=np.float64)
+        slack = _ROUNDING * self.seconds
+        inside = (asked >= -slack) & (asked <= self.seconds + slack)  # false for NaN
+        if not inside.all():
+            time = float(asked[~inside].flat[0])
+            raise InputError(
+                f"times: {time:g} s is not within the motion, which takes 0 to {self.seconds:.6g} s"
+            )
+        return np.asarray(self._piecewise(np.clip(asked, 0.0, self.seconds), nu=order))
+
+    def __repr__(self) -> str:
+        return f"Trajectory({self.seconds:.6g} s: {self.dof} joints, {len(self.durations)} pieces)"
 
     def sample(self, rate: float) -> tuple[Array, Array]:
         """Sample position, velocity, acceleration and jerk at a fixed rate, the end included.
@@ -120,12 +142,37 @@ class Trajectory:
         InputError
             For a rate that is not positive.
         """
+        times = self.sample_times(rate)
+        return times, np.stack([self.at(times, order) for order in range(4)])
+
+    def sample_times(self, rate: float) -> Array:
+        """Times at a fixed rate, the end included.
+
+        Parameters
+        ----------
+        rate : float
+            Samples per second [1/s].
+
+        Returns
+        -------
+        Array, shape (m,)
+            Multiples of 1 / rate, then the final time [s].
+
+        Raises
+        ------
+        InputError
+            For a rate that is not positive, and for more than 5,000,000 samples.
+        """
         if not (np.isfinite(rate) and rate > 0.0):
             raise InputError(f"trajectory: a sample rate must be positive, got {rate:g}")
+        if self.seconds * rate > MOST_SAMPLES:
+            raise InputError(
+                f"trajectory: a sample rate of {rate:g} over {self.seconds:.4g} s makes "
+                f"{self.seconds * rate:.3g} samples; at most {MOST_SAMPLES} are made"
+            )
         # drop a last multiple that lies within rounding of the final time: the final time stands for it
         steps = int(np.ceil(self.seconds * rate * (1.0 - 1e-12) - 1e-9))
-        times = np.append(np.arange(steps) / rate, self.seconds)
-        return times, np.stack([self.at(times, order) for order in range(4)])
+        return np.append(np.arange(steps) / rate, self.seconds)
 
     def stretched(self, factor: float) -> Trajectory:
         """Return the same path at another pace.

@@ -9,9 +9,7 @@ from formulations.problem.errors import InputError
 
 
 def write_text(path: str | Path, text: str) -> None:
-    """Write a file whole or not at all.
-
-    The text goes to a file beside it, which then takes its name: a reader never sees half a file.
+    """Write a text file whole or not at all.
 
     Parameters
     ----------
@@ -25,11 +23,31 @@ def write_text(path: str | Path, text: str) -> None:
     InputError
         The file cannot be written; the message is one line that names it.
     """
+    write_bytes(path, text.encode("utf-8"))
+
+
+def write_bytes(path: str | Path, data: bytes) -> None:
+    """Write a file whole or not at all.
+
+    The bytes go to a file beside it, which then takes its name: a reader never sees half a file.
+
+    Parameters
+    ----------
+    path : str or Path
+        The file; it is replaced if it is there.
+    data : bytes
+        All that the file shall hold.
+
+    Raises
+    ------
+    InputError
+        The file cannot be written; the message is one line that names it.
+    """
     path = Path(path)
     temporary = path.with_name(path.name + ".part")
     try:
-        with temporary.open("w", encoding="utf-8") as file:
-            file.write(text)
+        with temporary.open("wb") as file:
+            file.write(data)
             file.flush()
             os.fsync(file.fileno())  # or a power cut could leave the new name on an empty file
         os.replace(temporary, path)

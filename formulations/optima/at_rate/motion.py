@@ -23,16 +23,15 @@ from formulations.motion.trajectory import Trajectory
 from formulations.motion.verdict import check
 from formulations.optima.at_rate.joint_program import JointBounds, integrated, least_jerk
 from formulations.optima.at_rate.points import SwitchPoints
-from formulations.optima.at_rate.rounding import least_distance, margins
+from formulations.optima.at_rate.requests import require_exportable
+from formulations.optima.at_rate.rounding import margins
 from formulations.problem.arrays import Array
 from formulations.problem.conditions import Conditions
-from formulations.problem.errors import InputError, NoFeasibleMotion
+from formulations.problem.errors import NoFeasibleMotion
 from formulations.problem.problem import Problem
 
-MOST_POINTS = 5_000_000
 _EXTRA = (0, 1, 2, 4, 8, 16, 32)  # further periods per segment, tried in this order
 _STRETCHES = (1e-6, 1e-5, 1e-4, 1e-3, 1e-2)  # the same where points are not tied to a rate
-_LARGEST_MARGIN = 0.02  # a file at a higher rate would be more rounding than motion
 
 
 @dataclass(frozen=True)
@@ -71,7 +70,7 @@ def at_rate(
         A motion that keeps them, usually the fastest one. Its passage times and switching times are the
         starting point.
     rate : float or None [1/s]
-        SwitchPoints per second. None: points where the jerk switches, at least so far apart that rounding does
+        Points per second. None: points where the jerk switches, at least so far apart that rounding does
         not matter.
     conditions : Conditions, optional
         What else was asked of the given motion.
@@ -91,20 +90,7 @@ def at_rate(
         No motion was found even with 32 further periods per segment.
     """
     asked = conditions or Conditions()
-    _require_acceleration(problem)
-    if rate is not None and not (np.isfinite(rate) and rate > 0.0):
-        raise InputError(f"rate: {rate:g} points per second; a positive number is needed")
-    if rate is not None and trajectory.seconds * rate > MOST_POINTS:
-        raise InputError(
-            f"rate: {rate:g} points per second over {trajectory.seconds:.4g} s are "
-            f"{trajectory.seconds * rate:.3g} points; at most {MOST_POINTS} are written"
-        )
-    least = least_distance(problem, trajectory.seconds, _LARGEST_MARGIN)
-    if rate is not None and rate * least > 1.0:
-        raise InputError(
-            f"rate: {rate:g} points per second; beyond {1.0 / least:.4g} the rounding of positions to "
-            "double precision takes more than 2 % of the jerk limit"
-        )
+    require_exportable(problem, trajectory.seconds, rate)
     verdict = None
     for patience in _EXTRA if rate is not None else _STRETCHES:
         grid = (
@@ -123,16 +109,6 @@ def at_rate(
     raise NoFeasibleMotion(
         f"no motion with its jerk constant between points {points} was found{reason}"
     )
-
-
-def _require_acceleration(problem: Problem) -> None:
-    """Refuse a moving joint without an acceleration limit: its first acceleration would be unbounded."""
-    for joint in problem.moving_joints:
-        if not np.isfinite(problem.limits.acceleration[joint]):
-            raise InputError(
-                f"limits.acceleration: joint {joint + 1} has none; a controller cannot follow a motion "
-                "whose velocity jumps, so give a limit for this joint"
-            )
 
 
 def _solve(

@@ -9,10 +9,10 @@ from math import ceil
 import numpy as np
 
 from formulations.motion.trajectory import Trajectory
+from formulations.optima.at_rate.requests import require_point
 from formulations.optima.at_rate.rounding import least_distance
 from formulations.problem.arrays import Array, Indices
 from formulations.problem.conditions import Conditions
-from formulations.problem.errors import InputError
 from formulations.problem.problem import Problem
 
 _EVEN_CELLS = 200  # cells are never longer than the motion over this
@@ -21,7 +21,7 @@ _MERGED_MARGIN = 1e-6  # margin that sets the least distance of points without a
 
 @dataclass(frozen=True)
 class SwitchPoints:
-    """SwitchPoints that the jerk may switch at.
+    """Points that the jerk may switch at.
 
     Attributes
     ----------
@@ -52,7 +52,7 @@ class SwitchPoints:
         trajectory : Trajectory
             The motion whose passage times are the starting point.
         rate : float [1/s]
-            SwitchPoints per second.
+            Points per second.
         extra : int
             Further periods for each segment.
         asked : Conditions
@@ -61,19 +61,14 @@ class SwitchPoints:
         Returns
         -------
         SwitchPoints
-            SwitchPoints and waypoints.
+            Points and waypoints.
         """
         exact = np.diff(trajectory.passage_times) * rate
         periods = np.ceil(exact - 1e-6).astype(np.intp)
         periods += np.where(problem.displacements.any(axis=1), extra, 0)
         waypoints = np.concatenate([[0], np.cumsum(periods)])
         for waypoint, time in sorted(asked.times(problem).items()):
-            nearest = round(time * rate)
-            if abs(nearest / rate - time) > 1e-9 * time:
-                raise InputError(
-                    f"rate: waypoint {waypoint + 1} is asked for at {time:.9g} s, between two points at "
-                    f"{rate:g} points per second; {nearest / rate:.9g} s is the time of a point"
-                )
+            nearest = require_point(waypoint, time, rate)
             waypoints[: waypoint + 1] = np.minimum(waypoints[: waypoint + 1], nearest)
             waypoints[waypoint:] += nearest - waypoints[waypoint]
         stamps = np.rint(np.arange(waypoints[-1] + 1) * (1e9 / rate)).astype(np.intp)
@@ -99,7 +94,7 @@ class SwitchPoints:
         Returns
         -------
         SwitchPoints
-            SwitchPoints and waypoints.
+            Points and waypoints.
         """
         fixed = asked.times(problem)
         factor = 1.0 if problem.n_segments in fixed else 1.0 + stretch

@@ -31,7 +31,7 @@ _BESIDE = (  # what ROS messages have beside a trajectory
     "model_id",
     "trajectory_start",
 )
-_POINT = ("positions", "velocities", "accelerations", "effort", "time_from_start")
+POINT = ("positions", "velocities", "accelerations", "effort", "time_from_start")
 
 
 def trajectory_positions(top: Entry, names: Sequence[str]) -> Array:
@@ -69,7 +69,7 @@ def trajectory_positions(top: Entry, names: Sequence[str]) -> Array:
         raise entries["points"].error(f"{len(points)} points; at most {MOST_WAYPOINTS} are read")
     rows = []
     for point in points:
-        keys = point.entries(_POINT)
+        keys = point.entries(POINT)
         if "positions" not in keys:
             raise point.error("positions are missing")
         positions = keys["positions"]

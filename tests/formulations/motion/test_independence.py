@@ -29,4 +29,4 @@ def test_the_check_shares_no_code_with_the_kernels(path: Path) -> None:
 
 
 def test_the_files_of_the_check_are_there() -> None:
-    assert {"extremes", "trajectory", "verdict", "motion_file"} <= {path.stem for path in FILES}
+    assert {"extremes", "trajectory", "verdict", "interpolation"} <= {path.stem for path in FILES}

@@ -1,0 +1,144 @@
+"""Points of a motion as arrays of NumPy in one file (.npz): nothing is lost.
+
+The arrays are ``time`` (n_points,), ``position``, ``velocity``, ``acceleration`` (n_points, dof)
+[s, rad, rad/s, rad/s^2] and ``joint_names`` (dof,). Objects of Python are never loaded.
+"""
+
+from __future__ import annotations
+
+import io
+import zipfile
+import zlib
+from typing import Any
+
+import numpy as np
+from numpy.lib import format as npy
+
+from formulations.motion.files.checked import QUANTITIES, named, numbered
+from formulations.motion.files.motion_points import MotionPoints
+from formulations.problem.errors import InputError
+from formulations.robot.text.files import known_names, shown
+
+_LARGEST = 1_000_000_000  # bytes of all arrays
+_KEYS = ("time", *QUANTITIES, "joint_names")
+
+
+def write_npz(points: MotionPoints) -> bytes:
+    """Write points as an NPZ file.
+
+    Parameters
+    ----------
+    points : MotionPoints
+        The points, checked.
+
+    Returns
+    -------
+    bytes
+        The file.
+    """
+    values = (points.positions, points.velocities, points.accelerations)
+    arrays: dict[str, Any] = {"time": points.times}
+    arrays |= {key: value for key, value in zip(QUANTITIES, values, strict=True) if value is not None}
+    names = points.names or numbered(points.positions.shape[1], "joint_")
+    stream = io.BytesIO()
+    np.savez(stream, joint_names=np.array(names), allow_pickle=False, **arrays)
+    return stream.getvalue()
+
+
+def read_npz(data: bytes, file: str) -> MotionPoints:
+    """Read points from an NPZ file.
+
+    Parameters
+    ----------
+    data : bytes
+        A file.
+    file : str
+        Its name, for messages.
+
+    Returns
+    -------
+    MotionPoints
+        Not checked yet.
+
+    Raises
+    ------
+    InputError
+        Names the array.
+    """
+    arrays = _arrays(data, file)
+    for key in ("time", "position"):
+        if key not in arrays:
+            raise InputError(f"{file}: array {key!r} is missing")
+    names = arrays.pop("joint_names", np.array([], dtype=np.str_))
+    if names.dtype.kind != "U" and names.size:
+        raise InputError(f"{file}: joint_names: expected text, got {names.dtype}")
+    for key, array in arrays.items():
+        if array.dtype.kind not in "fiu":
+            raise InputError(f"{file}: {key}: expected numbers, got {array.dtype}")
+        rank = 1 if key == "time" else 2
+        if array.ndim != rank or len(array) != len(arrays["time"]):
+            expected = "(n_points,)" if rank == 1 else "(n_points, n_joints)"
+            raise InputError(f"{file}: {key}: expected the shape {expected}, got {array.shape}")
+        if key != "time" and array.shape != arrays["position"].shape:
+            raise InputError(
+                f"{file}: {key}: the shape {array.shape} is not that of position, "
+                f"{arrays['position'].shape}"
+            )
+    found = [arrays[key].astype(np.float64) if key in arrays else None for key in ("time", *QUANTITIES)]
+    time, position, velocity, acceleration = found
+    assert time is not None
+    assert position is not None
+    return MotionPoints(
+        time,
+        position,
+        velocity,
+        acceleration,
+        named(tuple(str(name) for name in names.ravel()), "joint_"),
+    )
+
+
+def _arrays(data: bytes, file: str) -> dict[str, Any]:
+    """All arrays; their sizes are known before memory is asked for."""
+    arrays = {}
+    try:
+        with zipfile.ZipFile(io.BytesIO(data)) as archive:
+            members = archive.infolist()
+            size = sum(member.file_size for member in members)
+            if size > _LARGEST:
+                raise InputError(f"{file}: unpacked {size} bytes; at most {_LARGEST} are read")
+            for member in members:
+                key = member.filename.removesuffix(".npy")
+                if key not in _KEYS:
+                    raise InputError(f"{file}: unknown array {shown(key)}; {known_names(key, _KEYS)}")
+                if key in arrays:
+                    raise InputError(f"{file}: array {shown(key)} is there twice")
+                arrays[key] = _array(archive.read(member), f"{file}: {key}")
+    except InputError:
+        raise
+    except (zipfile.BadZipFile, zlib.error, EOFError, OSError, NotImplementedError, RuntimeError,
+            ValueError, SyntaxError, TypeError, OverflowError, RecursionError, MemoryError,
+            UnicodeError, LookupError) as error:  # fmt: skip
+        raise InputError(f"{file}: not an NPZ file: {type(error).__name__}: {error}") from None
+    return arrays
+
+
+def _array(data: bytes, place: str) -> Any:
+    stream = io.BytesIO(data)
+    version = npy.read_magic(stream)
+    if version == (1, 0):
+        shape, by_columns, dtype = npy.read_array_header_1_0(stream)
+    elif version == (2, 0):
+        shape, by_columns, dtype = npy.read_array_header_2_0(stream)
+    else:
+        raise InputError(f"{place}: version {version} of the NPY format is not read")
+    if dtype.hasobject or dtype.kind not in "fiuUb":
+        raise InputError(f"{place}: expected numbers or text, got {dtype}")
+    body = data[stream.tell() :]
+    count = 1
+    for length in shape:
+        count *= int(length)
+    if len(shape) > 2 or count * dtype.itemsize != len(body):
+        raise InputError(f"{place}: the shape {shape} of {dtype} does not fit {len(body)} bytes")
+    if count == 0:
+        return np.empty(shape, dtype=dtype)
+    return np.frombuffer(body, dtype=dtype).reshape(shape, order="F" if by_columns else "C")

@@ -1,0 +1,214 @@
+"""Write a motion to a file whose points, joined as a controller joins them, keep every limit.
+
+The file is judged, not the motion it comes from: its bytes are read back, its points are joined by quintics,
+and ``check`` judges that motion by its exact extremes. Only then does the file get its name.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from pathlib import Path
+
+import numpy as np
+
+from formulations.motion.files.formats import format_to_write
+from formulations.motion.files.motion_file import decode_motion, encode_motion, points_of
+from formulations.motion.files.motion_points import MotionPoints
+from formulations.motion.trajectory import Trajectory
+from formulations.motion.verdict import Verdict, check
+from formulations.optima.at_rate.motion import at_rate
+from formulations.optima.at_rate.requests import check_request, require_exportable
+from formulations.problem.conditions import Conditions
+from formulations.problem.errors import InputError, NoFeasibleMotion
+from formulations.problem.files import write_bytes
+from formulations.problem.problem import Problem
+
+_FINER = (2, 4, 8, 16, 32)  # times the rate, where points are too coarse
+
+
+@dataclass(frozen=True)
+class Export:
+    """A file that was written, and what its points make of the motion.
+
+    Attributes
+    ----------
+    path : str
+        The file.
+    seconds : float [s]
+        Time of the motion that the file holds.
+    given_seconds : float [s]
+        Time of the motion that was to be written.
+    rounding_up : float [s]
+        What it costs that each segment takes a whole number of periods; 0 without a rate.
+    margin : float
+        Share of the jerk limits that is left free for the rounding of positions and times.
+    n_points : int
+        Points of the file; for exact pieces, where they meet.
+    rate : float or None [1/s]
+        Points per second, if they are even.
+    verdict : Verdict
+        About the file, joined as a controller joins it.
+    """
+
+    path: str
+    seconds: float
+    given_seconds: float
+    rounding_up: float
+    margin: float
+    n_points: int
+    rate: float | None
+    verdict: Verdict
+
+    @property
+    def cost(self) -> float:
+        """Seconds that the file takes longer than the motion that was given."""
+        return self.seconds - self.given_seconds
+
+    def lines(self) -> list[str]:
+        """Say what was written, what it uses of the limits, and what the points cost.
+
+        Returns
+        -------
+        list of str
+            Two or three lines.
+        """
+        at = "" if self.rate is None else f" at {self.rate:g} per second"
+        used = {
+            peak.quantity: peak.factor for peak in self.verdict.peaks if peak.quantity != "position"
+        }
+        factors = ", ".join(f"{name} {used[name]:.9g}" for name in sorted(used, key=_ORDER.index))
+        joined = "" if format_to_write(self.path) is None else " and joined as a controller does"
+        lines = [
+            f"{self.path}: written, {self.n_points} points{at}, {self.seconds:.9g} s",
+            f"  the file, read back{joined}, keeps every limit; used of them: {factors}",
+        ]
+        if self.cost:
+            share = 100.0 * self.cost / self.given_seconds
+            up = f"rounding up to whole periods {self.rounding_up:.4g} s, " * (self.rate is not None)
+            lines.append(
+                f"  {self.cost:.4g} s ({share:.3g} %) longer than the motion found: {up}switching at points "
+                f"with a margin of {self.margin:.2g} for rounding {self.cost - self.rounding_up:.4g} s"
+            )
+        return lines
+
+
+_ORDER = ("velocity", "acceleration", "jerk")
+
+
+def check_export(
+    path: str | Path, problem: Problem, rate: float | None, conditions: Conditions | None = None
+) -> None:
+    """Refuse an export before its motion is computed.
+
+    Parameters
+    ----------
+    path : str or Path
+        The file.
+    problem : Problem
+        Waypoints and limits.
+    rate : float or None [1/s]
+        Points per second.
+    conditions : Conditions, optional
+        What else is asked of the motion.
+
+    Raises
+    ------
+    InputError
+        No format has this suffix, or the rate or the limits cannot make a file.
+    """
+    format_to_write(path)
+    check_request(problem, rate, conditions)
+
+
+def export_motion(
+    path: str | Path,
+    problem: Problem,
+    trajectory: Trajectory,
+    rate: float | None = None,
+    *,
+    conditions: Conditions | None = None,
+    names: tuple[str, ...] | None = None,
+) -> Export:
+    """Write a motion so that the file itself keeps every limit; read it back and judge it first.
+
+    Parameters
+    ----------
+    path : str or Path
+        Ends in .csv, .json or .yaml (a ROS JointTrajectory), .npz, or .pieces.json (exact polynomials).
+    problem : Problem
+        Waypoints and limits that the file keeps.
+    trajectory : Trajectory
+        A motion that keeps them.
+    rate : float, optional
+        Points per second [1/s]. Left out: points where the jerk switches; exact pieces are written as
+        they are.
+    conditions : Conditions, optional
+        What else was asked of the motion.
+    names : tuple of str, optional
+        Names of the joints; left out, those of the problem if it has some.
+
+    Returns
+    -------
+    Export
+        What was written and how it was judged.
+
+    Raises
+    ------
+    InputError
+        As ``write_motion`` and ``at_rate``.
+    NoFeasibleMotion
+        The points are too coarse; the message says at which rate they keep the limits, and nothing is
+        written.
+    """
+    names = tuple(getattr(problem, "names", None) or ()) if names is None else tuple(names)
+    exact = format_to_write(path) is None
+    margin, rounding_up = 0.0, 0.0
+    if exact and rate is None:
+        require_exportable(problem, trajectory.seconds, None)
+        motion, times = trajectory, trajectory.breaks
+    else:
+        require_exportable(problem, trajectory.seconds, rate)
+        try:
+            found = at_rate(problem, trajectory, rate, conditions=conditions)
+        except NoFeasibleMotion as reason:
+            raise NoFeasibleMotion(
+                f"{path}: not written: {reason}{_finer(problem, trajectory, rate, conditions)}"
+            ) from None
+        motion, times, margin = found.trajectory, found.times, found.margin
+        if rate is not None:
+            periods = np.diff(trajectory.passage_times) * rate
+            rounding_up = float((np.ceil(periods - 1e-6) - periods).sum() / rate)
+    data = encode_motion(path, motion if exact else points_of(motion, times, names), names)
+    back = decode_motion(path, data)
+    judged = back.motion("auto", motion.passage_times) if isinstance(back, MotionPoints) else back[0]
+    verdict = check(problem, judged, conditions=conditions)
+    if not verdict.feasible:
+        raise NoFeasibleMotion(
+            f"{path}: not written: its points, joined as a controller does, fail: {verdict.faults[0]}"
+        )
+    write_bytes(path, data)
+    return Export(
+        path=str(path),
+        seconds=verdict.seconds,
+        given_seconds=trajectory.seconds,
+        rounding_up=rounding_up,
+        margin=margin,
+        n_points=len(times),
+        rate=rate,
+        verdict=verdict,
+    )
+
+
+def _finer(
+    problem: Problem, trajectory: Trajectory, rate: float | None, conditions: Conditions | None
+) -> str:
+    """The least multiple of a rate, of those tried, whose points keep the limits: the end of a message."""
+    if rate is None:
+        return ""
+    for times in _FINER:
+        try:
+            at_rate(problem, trajectory, rate * times, conditions=conditions)
+        except (InputError, NoFeasibleMotion):
+            continue
+        return f"; at {rate * times:g} points per second they keep every limit"
+    return ""
