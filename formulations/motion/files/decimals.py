@@ -1,9 +1,9 @@
 """Many decimal numbers at once, between arrays and bytes, without a Python object per number.
 
 Written are decimals without an exponent, which CSV, JSON and YAML 1.1 and 1.2 read alike. Each column has
-at most as many decimals as its largest value has in double precision: 17 digits, counted from the first digit of
-that value, so nothing is lost beyond the 17th digit of the largest. Times that are whole nanoseconds have
-nine decimals and lose nothing.
+at most as many decimals as its largest value has in double precision: 17 digits, counted from the first
+digit of that value, so nothing is lost beyond the 17th digit of the largest. Times that are whole
+nanoseconds have nine decimals and lose nothing.
 
 Read are records that differ in their numbers only. A number of up to 18 digits is rounded correctly by one
 division with its remainder; the few others are left to Python.
