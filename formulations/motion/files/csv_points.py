@@ -8,15 +8,14 @@ may all be missing. Joints without names are counted from 1.
 
 from __future__ import annotations
 
-import csv
-import io
+import re
 
 import numpy as np
 
 from formulations.motion.files.checked import QUANTITIES, named, numbered, stacked
 from formulations.motion.files.decimals import decimals_of, time_decimals, write_records
 from formulations.motion.files.motion_points import MotionPoints
-from formulations.motion.files.records import csv_records
+from formulations.motion.files.records import csv_records, require_small
 from formulations.problem.arrays import Array
 from formulations.problem.errors import InputError
 from formulations.robot.text.files import decode, known_names, shown
@@ -40,14 +39,16 @@ def write_csv(points: MotionPoints) -> bytes:
     """
     columns, quantities = stacked(points)
     names = points.names or numbered(points.positions.shape[1])
-    header = io.StringIO()
-    csv.writer(header, lineterminator="\n").writerow(
-        ["time", *(f"{quantity}_{name}" for quantity in quantities for name in names)]
-    )
+    header = ["time", *(_quoted(f"{quantity}_{name}") for quantity in quantities for name in names)]
     decimals = np.append(time_decimals(points.times), decimals_of(columns))
     literals = [b"", *[b","] * columns.shape[1], b"\n"]
     rows = write_records(np.column_stack([points.times, columns]), decimals, literals)
-    return header.getvalue().encode() + rows
+    return ",".join(header).encode() + b"\n" + rows
+
+
+def _quoted(name: str) -> str:
+    """A name in quotes, if it has marks that a reader of CSV could take for a separator."""
+    return name if re.fullmatch(r"[\w./-]+", name) else '"' + name.replace('"', '""') + '"'
 
 
 def read_csv(data: bytes, file: str, *, records: bool = True) -> MotionPoints:
@@ -73,6 +74,8 @@ def read_csv(data: bytes, file: str, *, records: bool = True) -> MotionPoints:
         Names line and column.
     """
     found = csv_records(data) if records else None
+    if found is None:
+        require_small(data, file)
     header, table = _table(found.document if found else data, file)
     if found is not None:
         values = found.columns(table[0]) if len(table) == 1 else None

@@ -1,9 +1,9 @@
 """Many decimal numbers at once, between arrays and bytes, without a Python object per number.
 
 Written are decimals without an exponent, which CSV, JSON and YAML 1.1 and 1.2 read alike. Each column has
-as many decimals as its largest value has in double precision: 17 digits, counted from the first digit of
-that value, so nothing is lost beyond the 17th digit of the largest. Times that are whole nanoseconds have
-nine decimals and lose nothing.
+at most as many decimals as its largest value has in double precision: 17 digits, counted from the first
+digit of that value, so nothing is lost beyond the 17th digit of the largest. Times that are whole
+nanoseconds have nine decimals and lose nothing.
 
 Read are records that differ in their numbers only. A number of up to 18 digits is rounded correctly by one
 division with its remainder; the few others are left to Python.
@@ -100,11 +100,18 @@ def _write(columns: Any, decimals: Any, powers: Any, text: Any, ends: Any, out: 
         for column in range(columns.shape[1]):
             value = columns[row, column]
             places = decimals[column]
-            whole = np.uint64(np.rint(abs(value) * powers[places]))
+            size = abs(value)
+            whole = np.uint64(np.rint(size * powers[places]))
+            kept = places
+            for shorter in (places - 2, places - 1):  # if they say the same number
+                if shorter > 0:
+                    scaled = np.rint(size * powers[shorter])
+                    if scaled < 9007199254740992.0 and scaled / powers[shorter] == size:
+                        whole, kept = np.uint64(scaled), shorter
+                        break
             if value < 0.0 and whole > zero:
                 out[at] = 45  # -
                 at += 1
-            kept = places
             while kept > 1:
                 rest = whole // ten
                 if rest * ten != whole:

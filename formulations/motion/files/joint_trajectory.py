@@ -23,7 +23,7 @@ import numpy as np
 from formulations.motion.files.checked import named, numbered, stacked
 from formulations.motion.files.decimals import decimals_of, write_records
 from formulations.motion.files.motion_points import MotionPoints
-from formulations.motion.files.records import Records, json_records, yaml_records
+from formulations.motion.files.records import Records, json_records, require_small, yaml_records
 from formulations.problem.arrays import Array
 from formulations.problem.errors import InputError
 from formulations.robot.text.entry import Entry
@@ -31,18 +31,17 @@ from formulations.robot.text.files import decode
 from formulations.robot.text.trees import parse_json, parse_yaml
 from formulations.robot.waypoints.trajectory import MESSAGE, POINT, message_of
 
-_LARGEST_IRREGULAR = 10_000_000  # bytes of a file whose points are not written alike
 _STAMPS = (("sec", "nanosec"), ("secs", "nsecs"))
 _PLURALS = {"position": "positions", "velocity": "velocities", "acceleration": "accelerations"}
 
 
 def write_json(points: MotionPoints) -> bytes:
     """Write points as JSON; parameters as ``write_yaml``."""
-    names = json.dumps(list(points.names or numbered(points.positions.shape[1], "joint_")))
+    names = _names(points)
     rows = _rows(
         points, b'{"%s": [', b', "%s": [', b'], "time_from_start": {"sec": ', b', "nanosec": ', b"}},\n"
     )
-    return b'{"joint_names": ' + names.encode() + b', "points": [\n' + rows[:-2] + b"\n]}\n"
+    return b'{"joint_names": ' + names + b', "points": [\n' + rows[:-2] + b"\n]}\n"
 
 
 def write_yaml(points: MotionPoints) -> bytes:
@@ -58,11 +57,17 @@ def write_yaml(points: MotionPoints) -> bytes:
     bytes
         The file; times are rounded to a nanosecond.
     """
-    names = json.dumps(list(points.names or numbered(points.positions.shape[1], "joint_")))
+    names = _names(points)
     rows = _rows(
         points, b"- %s: [", b"\n  %s: [", b"]\n  time_from_start: {sec: ", b", nanosec: ", b"}\n"
     )
-    return b"joint_names: " + names.encode() + b"\npoints:\n" + rows
+    return b"joint_names: " + names + b"\npoints:\n" + rows
+
+
+def _names(points: MotionPoints) -> bytes:
+    """The list of names; YAML does not know how JSON escapes what is beyond 16 bits."""
+    names = list(points.names or numbered(points.positions.shape[1], "joint_"))
+    return json.dumps(names, ensure_ascii=False).encode()
 
 
 def _rows(
@@ -128,11 +133,7 @@ def _read(
         points = message.points(found)
         if points is not None:
             return points
-    if len(data) > _LARGEST_IRREGULAR:
-        raise InputError(
-            f"{file}: {len(data)} bytes; points that do not all have the same keys, written alike, are read "
-            f"from at most {_LARGEST_IRREGULAR} bytes"
-        )
+    require_small(data, file)
     points = _message(parse(decode(data, file), file)).points()
     assert points is not None
     return points

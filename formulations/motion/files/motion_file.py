@@ -21,7 +21,7 @@ from formulations.problem.errors import InputError
 from formulations.problem.files import write_bytes
 from formulations.robot.text.files import read_bytes
 
-LARGEST = 400_000_000  # bytes of a file that is read
+LARGEST = 1_000_000_000  # bytes of a file that is read or written
 
 
 def points_of(trajectory: Trajectory, times: Array, names: tuple[str, ...] = ()) -> MotionPoints:
@@ -77,7 +77,10 @@ def encode_motion(
         return write_pieces(motion, names)
     if entry is None:
         raise InputError(f"{path}: holds pieces, not points")
-    return entry.write(checked(motion, str(path)))
+    data = entry.write(checked(motion, str(path)))
+    if len(data) > LARGEST:
+        raise InputError(f"{path}: {len(data)} bytes; at most {LARGEST} are written: take a lower rate")
+    return data
 
 
 def decode_motion(path: str | Path, data: bytes) -> MotionPoints | tuple[Trajectory, tuple[str, ...]]:

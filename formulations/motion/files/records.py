@@ -16,6 +16,7 @@ import numpy as np
 
 from formulations.motion.files.decimals import read_records
 from formulations.problem.arrays import Array
+from formulations.problem.errors import InputError
 
 _MARK = 900_000_000  # marks are whole numbers from here on
 _HEAD = 1_000_000  # bytes in which the points must begin
@@ -25,6 +26,8 @@ _NUMBER = re.compile(
 )
 _FIRST_OF_JSON = re.compile(rb'"points"\s*:\s*\[\s*(?=\{)')
 _FIRST_OF_YAML = re.compile(rb"""(?:^|[\s{,])points["']?:[ \t]*\r?\n([ \t]*)(?=- )""")
+
+_LARGEST_IRREGULAR = 10_000_000  # bytes of a file whose points are not written alike
 
 
 @dataclass(frozen=True)
@@ -59,6 +62,15 @@ class Records:
         if not ((at >= 0) & (at < self.values.shape[1]) & (at == np.rint(at))).all():
             return None
         return self.values[:, at.astype(np.intp)]
+
+
+def require_small(data: bytes, file: str) -> None:
+    """Refuse a large file whose points are not written alike: each value of it would be an object."""
+    if len(data) > _LARGEST_IRREGULAR:
+        raise InputError(
+            f"{file}: {len(data)} bytes; points that do not all state the same, written alike, are read "
+            f"from at most {_LARGEST_IRREGULAR} bytes"
+        )
 
 
 def json_records(data: bytes) -> Records | None:

@@ -41,7 +41,7 @@ class Export:
     rounding_up : float [s]
         What it costs that each segment takes a whole number of periods; 0 without a rate.
     margin : float
-        Share of the jerk limits that is left free for the rounding of positions and times.
+        Largest share of a limit that is left free for the rounding of positions and times.
     n_points : int
         Points of the file; for exact pieces, where they meet.
     rate : float or None [1/s]
@@ -82,12 +82,18 @@ class Export:
             f"{self.path}: written, {self.n_points} points{at}, {self.seconds:.9g} s",
             f"  the file, read back{joined}, keeps every limit; used of them: {factors}",
         ]
-        if self.cost:
+        if self.cost > 0.0:
             share = 100.0 * self.cost / self.given_seconds
-            up = f"rounding up to whole periods {self.rounding_up:.4g} s, " * (self.rate is not None)
+            parts = []
+            if self.rate is not None:
+                parts.append(f"{self.rounding_up:.4g} s to round segments up to whole periods")
+            rest = max(self.cost - self.rounding_up, 0.0)
+            parts.append(
+                f"{rest if rest > 1e-12 else 0.0:.4g} s to switch at points, with a margin of "
+                f"{self.margin:.2g} of the limits for rounding"
+            )
             lines.append(
-                f"  {self.cost:.4g} s ({share:.3g} %) longer than the motion found: {up}switching at points "
-                f"with a margin of {self.margin:.2g} for rounding {self.cost - self.rounding_up:.4g} s"
+                f"  {self.cost:.4g} s ({share:.3g} %) longer than the motion found: {'; '.join(parts)}"
             )
         return lines
 

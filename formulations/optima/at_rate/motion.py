@@ -45,7 +45,7 @@ class AtPoints:
     times : Array, shape (n_points,) [s]
         The points of the file, whole nanoseconds, the end included.
     margin : float
-        Share of the jerk limit that is left free for the rounding of positions and times.
+        Largest share of a limit that is left free for the rounding of positions and times.
     """
 
     trajectory: Trajectory
@@ -140,7 +140,7 @@ def _solve(
     states = integrated(lengths, jerks[breaks[:-1]], starts)[:, :-1]
     coefficients = np.stack([states[0], states[1], states[2] / 2.0, jerks[breaks[:-1]] / 6.0], axis=-1)
     motion = Trajectory(lengths, coefficients, times[grid.waypoints])
-    return AtPoints(motion, times, float(shares[2][np.isfinite(problem.limits.jerk)].max(initial=0.0)))
+    return AtPoints(motion, times, float(shares[:, problem.moving_joints].max(initial=0.0)))
 
 
 def _switches(trajectory: Trajectory, joint: int) -> Array:

@@ -87,7 +87,8 @@ def _cells(text: str, file: str) -> Iterator[tuple[int, list[str]]]:
     """Line number and cells of each row that is neither empty nor a comment."""
     lines = text.splitlines()
     first = next((line for line in lines if line.strip() and not line.lstrip().startswith("#")), "")
-    separator = next((mark for mark in (";", "\t", ",") if mark in first), None)
+    bare = re.sub('"[^"]*"', "", first)  # a quoted name may hold any of the marks
+    separator = next((mark for mark in (";", "\t", ",") if mark in bare), None)
     for number, line in enumerate(lines, start=1):
         if not line.strip() or line.lstrip().startswith("#"):
             continue

@@ -9,7 +9,7 @@ import numpy as np
 import pytest
 
 from compare.__main__ import main
-from formulations import load
+from formulations import check, load
 from formulations.motion.files.motion_file import read_motion
 
 
@@ -43,6 +43,8 @@ def test_a_stop_and_a_passage_are_kept_and_the_file_holds_the_motion(
         (("--end-velocity", "0,0,0,0,0,900"), "joint 6: 900 deg/s is over the limit"),
         (("--gap", "0"), "--gap: 0 is not positive"),
         (("--rate", "0"), "--rate: 0 is not positive"),
+        (("--export", "motion.csv", "--rate", "1e9"), "rate: 1e+09 points per second over"),
+        (("--export", "motion.xyz"), "written as .csv, .json, .yaml, .npz or .pieces.json, not '.xyz'"),
         (("--export", "nowhere/motion.csv"), "--export: nowhere/motion.csv: cannot be written"),
     ],
 )
@@ -55,6 +57,25 @@ def test_misuse_is_one_line(
     assert message in said.err
     assert said.err.count("\n") == 1
     assert said.out == ""
+
+
+def test_the_file_is_judged_and_a_bad_rate_is_told_before_solving(
+    tmp_path: Path, capsys: pytest.CaptureFixture[str], monkeypatch: pytest.MonkeyPatch
+) -> None:
+    problem = load("sr4c")
+    for name in ("m.csv", "m.yaml"):
+        assert main(["plan", "sr4c", "--export", str(tmp_path / name), "--rate", "125"]) == 0
+        said = capsys.readouterr().out
+        assert f"{name}: written, 377 points at 125 per second" in said
+        assert "keeps every limit" in said
+        assert check(problem, read_motion(tmp_path / name, waypoints=problem.waypoints)).feasible
+
+    def solve(*arguments: object, **more: object) -> None:
+        raise AssertionError("solved before the rate was looked at")
+
+    monkeypatch.setattr("compare.commands.plan.free_form", solve)
+    assert main(["plan", "sr4c", "--export", str(tmp_path / "n.csv"), "--rate", "1e9"]) == 2
+    assert not (tmp_path / "n.csv").exists()
 
 
 def test_a_task_without_a_solution_is_told_as_a_bad_file_is(capsys: pytest.CaptureFixture[str]) -> None:
