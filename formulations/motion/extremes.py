@@ -1,11 +1,15 @@
 """Exact extremes of piecewise polynomials, from the roots of their derivatives and never from samples.
 
-Linear and quadratic derivatives have closed forms; others are roots by eigenvalues, polished by Newton.
+A derivative whose Bernstein coefficients on the piece have one sign has no root inside (Descartes' rule of
+signs), so that the extremes are at the ends. Most pieces of a densely sampled motion are of this kind. Of the
+others, linear and quadratic derivatives have closed forms; the rest are roots by eigenvalues, polished by
+Newton.
 """
 
 from __future__ import annotations
 
 from dataclasses import dataclass
+from math import comb
 
 import numpy as np
 
@@ -49,17 +53,48 @@ def find_extremes(pieces: Array, durations: Array, breaks: Array, order: int) ->
     Extremes
     """
     value = differentiated(pieces, order)
-    ends = np.broadcast_to([0.0, 1.0], (*value.shape[:2], 2))
-    candidates = np.concatenate([ends, _turning_points(differentiated(value, 1))], axis=2)
-    values = evaluated(value, candidates) / durations[:, None, None] ** order
-    lowest, highest = values.argmin(axis=2)[..., None], values.argmax(axis=2)[..., None]
-    times = breaks[:-1, None, None] + candidates * durations[:, None, None]
+    flat = value.reshape(-1, value.shape[2])
+    at_ends = evaluated(flat, np.broadcast_to([0.0, 1.0], (len(flat), 2)))
+    falls = at_ends[:, 1] < at_ends[:, 0]
+    low, high = at_ends.min(axis=1), at_ends.max(axis=1)
+    when_low, when_high = np.where(falls, 1.0, 0.0), np.where(at_ends[:, 1] > at_ends[:, 0], 1.0, 0.0)
+    slopes = differentiated(flat, 1)
+    rows = np.flatnonzero(_may_turn(slopes))
+    if len(rows):
+        ends = np.broadcast_to([0.0, 1.0], (len(rows), 2))
+        candidates = np.concatenate([ends, _turning_points(slopes[rows])], axis=1)
+        values = evaluated(flat[rows], candidates)
+        each = np.arange(len(rows))
+        for choice, best, when in (
+            (values.argmin(axis=1), low, when_low),
+            (values.argmax(axis=1), high, when_high),
+        ):
+            best[rows], when[rows] = values[each, choice], candidates[each, choice]
+    shape, seconds = value.shape[:2], durations[:, None]
+    scale, start = seconds**order, breaks[:-1, None]
     return Extremes(
-        low=np.take_along_axis(values, lowest, 2)[..., 0],
-        high=np.take_along_axis(values, highest, 2)[..., 0],
-        time_low=np.take_along_axis(times, lowest, 2)[..., 0],
-        time_high=np.take_along_axis(times, highest, 2)[..., 0],
+        low=low.reshape(shape) / scale,
+        high=high.reshape(shape) / scale,
+        time_low=start + when_low.reshape(shape) * seconds,
+        time_high=start + when_high.reshape(shape) * seconds,
     )
+
+
+def _may_turn(slopes: Array) -> Array:
+    """Whether each of the polynomials (m, k) may have a root in [0, 1], (m,).
+
+    It has none if its Bernstein coefficients are all positive or all negative beyond rounding, nor a
+    change of sign if they are all zero.
+    """
+    degree = slopes.shape[1] - 1
+    to_bernstein = np.array(
+        [[comb(i, k) / comb(degree, k) for k in range(degree + 1)] for i in range(degree + 1)]
+    )
+    bernstein = to_bernstein @ slopes.T
+    low, high = bernstein.min(axis=0), bernstein.max(axis=0)
+    # a power coefficient is at most 3^degree times the largest Bernstein coefficient
+    rounding = (degree + 2) * 3.0**degree * np.finfo(np.float64).eps
+    return np.asarray((low < rounding * high) & (high > rounding * low))
 
 
 def differentiated(polynomials: Array, order: int) -> Array:
