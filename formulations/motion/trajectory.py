@@ -176,11 +176,16 @@ class Trajectory:
         )
 
     @cached_property
-    def jumps(self) -> Array:
-        """Largest jump per joint of position, velocity, acceleration at inner breaks, (3, dof)."""
+    def jumps_between(self) -> Array:
+        """Jump of position, velocity, acceleration at each inner break, (3, n_pieces - 1, dof)."""
         ends = np.stack([self._edge(order, 1.0)[:-1] for order in range(3)])
         starts = np.stack([self._edge(order, 0.0)[1:] for order in range(3)])
-        return np.asarray(np.abs(starts - ends).max(axis=1, initial=0.0))
+        return np.asarray(np.abs(starts - ends))
+
+    @property
+    def jumps(self) -> Array:
+        """Largest jump per joint of position, velocity, acceleration at inner breaks, (3, dof)."""
+        return np.asarray(self.jumps_between.max(axis=1, initial=0.0))
 
     def _edge(self, order: int, s: float) -> Array:
         value = differentiated(self._normalised, order)
