@@ -21,6 +21,7 @@ from typing import Any
 import numpy as np
 from scipy.interpolate import BPoly, PPoly
 
+from formulations.motion.files.motion_points import MotionPoints
 from formulations.motion.trajectory import Trajectory
 from formulations.problem.arrays import Array
 from formulations.problem.errors import InputError
@@ -90,6 +91,30 @@ def read_motion(path: str | Path, *, passages: Array | None = None) -> Trajector
     InputError
         Names the file, the row and the value.
     """
+    points = read_points(path)
+    values = np.stack([points.positions, points.velocities, points.accelerations], axis=1)  # type: ignore[list-item]
+    pieces = PPoly.from_bernstein_basis(BPoly.from_derivatives(points.times, values))
+    coefficients = np.moveaxis(pieces.c, 0, -1)[..., ::-1]
+    return Trajectory(np.diff(points.times), np.ascontiguousarray(coefficients), passages)
+
+
+def read_points(path: str | Path) -> MotionPoints:
+    """Read the points of a motion, as they stand in a file.
+
+    Parameters
+    ----------
+    path : str or Path
+        A .json file, or a CSV file.
+
+    Returns
+    -------
+    MotionPoints
+
+    Raises
+    ------
+    InputError
+        Names the file, the row and the value.
+    """
     path = Path(path)
     try:
         if path.stat().st_size > _LARGEST:
@@ -110,9 +135,7 @@ def read_motion(path: str | Path, *, passages: Array | None = None) -> Trajector
     if len(wrong):
         k = int(wrong[0]) + 1
         raise InputError(f"{path}: time must rise: point {k + 1} is at {times[k]:g} s")
-    pieces = PPoly.from_bernstein_basis(BPoly.from_derivatives(times, values))
-    coefficients = np.moveaxis(pieces.c, 0, -1)[..., ::-1]
-    return Trajectory(np.diff(times), np.ascontiguousarray(coefficients), passages)
+    return MotionPoints(times, values[:, 0], values[:, 1], values[:, 2])
 
 
 def _as_csv(times: Array, values: Array) -> str:

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-import time
+from time import process_time
 
 import numpy as np
 import pytest
@@ -195,9 +195,9 @@ def test_a_minute_of_seven_joints_at_1_khz_is_searched_in_a_second() -> None:
     speed, phase = np.linspace(0.5, 3.0, 7), np.arange(7.0)
     swing = speed * t + phase
     motion = joined(t[:, 0], np.sin(swing), speed * np.cos(swing), -(speed**2) * np.sin(swing))
-    start = time.process_time()
+    start = process_time()
     for order in range(4):
         found = motion.extremes(order)
         if order < 3:  # the jerk of a quintic between samples is not that of the sine
             assert found.high.max(axis=0) == pytest.approx(speed**order, rel=1e-9)
-    assert time.process_time() - start < 1.5  # eigenvalues of every piece: 4 s and more
+    assert process_time() - start < 1.5  # eigenvalues of every piece: 4 s and more
