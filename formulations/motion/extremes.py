@@ -133,7 +133,7 @@ def evaluated(polynomials: Array, points: Array) -> Array:
     -------
     Array, shape (..., m)
     """
-    values = np.zeros_like(points)
+    values = np.zeros(points.shape)
     for k in range(polynomials.shape[-1] - 1, -1, -1):
         values = values * points + polynomials[..., k : k + 1]
     return values
