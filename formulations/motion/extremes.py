@@ -16,6 +16,9 @@ import numpy as np
 from formulations.problem.arrays import Array
 
 
+_BLOCK = 1 << 15  # polynomials that are looked at together: they stay in the cache
+
+
 @dataclass(frozen=True)
 class Extremes:
     """Least and greatest value per piece and joint, and when they occur.
@@ -52,32 +55,44 @@ def find_extremes(pieces: Array, durations: Array, breaks: Array, order: int) ->
     -------
     Extremes
     """
-    value = differentiated(pieces, order)
-    flat = value.reshape(-1, value.shape[2])
-    at_ends = evaluated(flat, np.broadcast_to([0.0, 1.0], (len(flat), 2)))
-    falls = at_ends[:, 1] < at_ends[:, 0]
-    low, high = at_ends.min(axis=1), at_ends.max(axis=1)
-    when_low, when_high = np.where(falls, 1.0, 0.0), np.where(at_ends[:, 1] > at_ends[:, 0], 1.0, 0.0)
-    slopes = differentiated(flat, 1)
+    shape = pieces.shape[:2]
+    flat = pieces.reshape(-1, pieces.shape[2])
+    found = np.empty((4, len(flat)))
+    for first in range(0, len(flat), _BLOCK):
+        block = slice(first, first + _BLOCK)
+        found[:, block] = _extremes_of(differentiated(flat[block], order))
+    low, high, when_low, when_high = found.reshape(4, *shape)
+    seconds, start = durations[:, None], breaks[:-1, None]
+    return Extremes(
+        low=low / seconds**order,
+        high=high / seconds**order,
+        time_low=start + when_low * seconds,
+        time_high=start + when_high * seconds,
+    )
+
+
+def _extremes_of(polynomials: Array) -> Array:
+    """Least and greatest value on [0, 1] of polynomials (m, k), and where they are taken, (4, m)."""
+    at_start = polynomials[:, 0]
+    at_end = evaluated(polynomials, np.ones((len(polynomials), 1)))[:, 0]
+    found = np.stack(
+        [
+            np.minimum(at_start, at_end),
+            np.maximum(at_start, at_end),
+            at_end < at_start,
+            at_end > at_start,
+        ]
+    )
+    slopes = differentiated(polynomials, 1)
     rows = np.flatnonzero(_may_turn(slopes))
     if len(rows):
         ends = np.broadcast_to([0.0, 1.0], (len(rows), 2))
         candidates = np.concatenate([ends, _turning_points(slopes[rows])], axis=1)
-        values = evaluated(flat[rows], candidates)
+        values = evaluated(polynomials[rows], candidates)
         each = np.arange(len(rows))
-        for choice, best, when in (
-            (values.argmin(axis=1), low, when_low),
-            (values.argmax(axis=1), high, when_high),
-        ):
-            best[rows], when[rows] = values[each, choice], candidates[each, choice]
-    shape, seconds = value.shape[:2], durations[:, None]
-    scale, start = seconds**order, breaks[:-1, None]
-    return Extremes(
-        low=low.reshape(shape) / scale,
-        high=high.reshape(shape) / scale,
-        time_low=start + when_low.reshape(shape) * seconds,
-        time_high=start + when_high.reshape(shape) * seconds,
-    )
+        for k, choice in enumerate((values.argmin(axis=1), values.argmax(axis=1))):
+            found[k, rows], found[k + 2, rows] = values[each, choice], candidates[each, choice]
+    return found
 
 
 def _may_turn(slopes: Array) -> Array:
