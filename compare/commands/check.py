@@ -139,10 +139,11 @@ def _mending(found: Assessment) -> list[str]:
         return [
             f"stretched by {factor:.6g}, to {factor * judged.seconds:.6g} s, it would keep everything"
         ]
+    kinds = " and ".join(dict.fromkeys(jump.quantity for jump in judged.jumps))
     reasons = {
         "a position limit is broken": any(p.quantity == "position" for p in judged.violations),
         "waypoints are missed": judged.missed,
-        "it jumps": judged.jumps,
+        f"the {kinds} jumps": judged.jumps,
         "it is not at rest at its ends": judged.not_at_rest,
     }
     why = [reason for reason, holds in reasons.items() if holds]
