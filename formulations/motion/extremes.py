@@ -15,7 +15,6 @@ import numpy as np
 
 from formulations.problem.arrays import Array
 
-
 _BLOCK = 1 << 15  # polynomials that are looked at together: they stay in the cache
 
 
