@@ -47,6 +47,11 @@ _ALL = (
         "timebound check sr4c motion.csv --interpolation cubic --json verdict.json",
     ),
     Command(
+        "retime", "compare.commands.retime:retime_motion", MOTIONS,
+        "Time a path or a motion anew: TOPP-RA, COPP, and freely within a tolerance.",
+        "timebound retime path.csv --limits ur5 --tolerance 0.005 --export faster.csv",
+    ),
+    Command(
         "split", "compare.commands.split:split", MOTIONS,
         "Show where a swarm's motion loses its time: search, spline, timing, path.",
         "timebound split sr4c --swarm pso --figure split.svg",

@@ -92,6 +92,7 @@ BAD = {
     "solve": (["nowhere.toml"], "nowhere.toml: no such file"),
     "plan": (["sr4c", "--stop", "soon"], '--stop: unable to convert "soon" into int'),
     "check": (["sr4c", "nowhere.csv"], "nowhere.csv: cannot be read"),
+    "retime": (["nowhere.csv", "--limits", "sr4c"], "nowhere.csv: cannot be read"),
     "split": (["sr4c", "--swarm", "psoo"], "--swarm: 'psoo' is not known; did you mean 'pso'?"),
     "motion_picture": (["sr4d"], "CASE: no arm is known for 'sr4d'"),
     "check_certificate": (["nowhere.json"], "nowhere.json: cannot be read"),
