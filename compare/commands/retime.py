@@ -14,6 +14,8 @@ from formulations import InputError, NoFeasibleMotion, load, write_motion
 from formulations.assessment import Assessment
 from formulations.motion.judgement import judge
 from formulations.motion.motion_file import read_points
+from formulations.optima.at_rate.motion import at_rate
+from formulations.retiming.path import Path
 from formulations.retiming.retime import WAYS, Retimed, retime
 
 
@@ -53,7 +55,7 @@ def retime_motion(
         ways = retime(points, posed.limits, tolerance=tolerance, progress=stage)
     text = as_text(motion, len(points.times), tolerance, ways)
     if export is not None:
-        text += f"\n\n{_export(export, rate, ways, way)}"
+        text += f"\n\n{_export(export, rate, ways, way, Path.of(points))}"
     show(text, as_json(motion, tolerance, ways), json)
     return DONE
 
@@ -145,7 +147,7 @@ def _note(way: Retimed) -> str:
     return ""
 
 
-def _export(path: str, rate: float | None, ways: list[Retimed], wanted: str | None) -> str:
+def _export(path: str, rate: float | None, ways: list[Retimed], wanted: str | None, given: Path) -> str:
     """Write a motion that keeps every limit, and judge what was written."""
     kept = {way.key: way for way in ways if way.kept is not None and way.key != "given"}
     if wanted is not None:
@@ -155,9 +157,14 @@ def _export(path: str, rate: float | None, ways: list[Retimed], wanted: str | No
     best = min(kept.values(), key=lambda way: way.kept.seconds if way.kept else np.inf)
     assert best.kept is not None
     assert best.problem is not None
-    write_motion(path, best.kept, rate=rate)
+    motion = best.kept
+    if best.key == "free_form":
+        # its jerk switches between the points of a file, where the quintics between them overshoot
+        motion = at_rate(best.problem, motion, rate).trajectory
+    write_motion(path, motion, rate=rate)
     written = judge(best.problem, read_points(path))
-    line = f"{path}: {best.key}, {best.kept.seconds:.6g} s, written"
+    away = given.farthest(written.motion)[1]
+    line = f"{path}: {best.key}, {written.seconds:.6g} s, written; {away:.1e} rad off the path"
     if written.violations:
         line += f"; joined by a controller: {written.violations[0]}"
         line += f"; stretch it by {written.stretch_for_limits:.6g}, or write more points"

@@ -15,8 +15,9 @@ from formulations.problem.problem import Limits, Problem
 from formulations.retiming.path import Path
 
 _COARSE = 4.0  # the first choice of points has a polyline within this many tolerances
-_ROUNDS = 8
+_ROUNDS = 16
 _MOST = 80  # waypoints
+_LEAST = 1000  # points to choose from: a sparse path gets further ones on its straight lines
 
 
 @dataclass(frozen=True)
@@ -63,6 +64,7 @@ def by_free_form(
     FreeRetiming or str
         The fastest motion within the tolerance that was found; or why there is none.
     """
+    path = path.divided(_LEAST)
     chosen = path.simplified(_COARSE * tolerance)
     deviation = np.inf
     for _ in range(_ROUNDS):

@@ -178,6 +178,24 @@ class Path:
         times = np.linspace(start, motion.seconds if end is None else end, _CHORDS)
         return float(Path(motion.at(times))._away(self.points).max())
 
+    def divided(self, count: int) -> Path:
+        """The same polyline with further points on it, evenly between two given ones.
+
+        Parameters
+        ----------
+        count : int
+            Least number of points.
+
+        Returns
+        -------
+        Path
+        """
+        share = int(np.ceil(count / len(self.points)))
+        at = np.arange((len(self.points) - 1) * share + 1) / share
+        given = np.arange(len(self.points))
+        columns = [np.interp(at, given, column) for column in self.points.T]
+        return Path(np.stack(columns, axis=1), self.names)
+
     def part(self, first: int, last: int) -> Path:
         """The path from one of its points to another, both included.
 
