@@ -23,6 +23,7 @@ _FIRST_STEPS = (
         ("timebound new", "asks, and writes FILE.toml"),
         ("timebound plan FILE.toml --export motion.csv --rate 125", "a file for the controller"),
         ("timebound solve FILE.toml", "every bound, and what limits the motion"),
+        ("timebound check FILE.toml motion.csv", "yours: is it safe, and how far from the best?"),
     ),
     (
         "You have a new swarm, and want to know whether it is better:",
@@ -54,7 +55,7 @@ def main(argv: Sequence[str] | None = None) -> int:
     -------
     int
         The exit code. 0: done; 2: bad input, or a task without a solution as posed; 1: anything else
-        that failed; 130: interrupted.
+        that failed; 3: a motion that was judged breaks something; 130: interrupted.
     """
     given = list(sys.argv[1:] if argv is None else argv)
     if given and given[0].replace("-", "_") in COMMANDS:

@@ -162,11 +162,7 @@ def diagnose(problem: Problem, found: FreeForm, *, more: float = 0.1, top: int =
     joint 1's acceleration holds segment 1 for 1 of 1 s; 21 % more of it would save 0.0909 s
     """
     held = _held(problem, found)
-    holds = [
-        Hold(int(j), QUANTITIES[o + 1], int(k), float(held[o, k, j]))
-        for o, k, j in np.argwhere(held > _LEAST * max(found.seconds, 1e-300))
-    ]
-    holds.sort(key=lambda hold: -hold.seconds)
+    holds = largest_holds(held, found.seconds)
     per_limit = held.sum(axis=1)
     worst = np.argsort(-per_limit, axis=None, kind="stable")[:top]
     savings = []
@@ -177,6 +173,28 @@ def diagnose(problem: Problem, found: FreeForm, *, more: float = 0.1, top: int =
     savings.sort(key=lambda saving: -saving.seconds)
     left = found.seconds - float(held.sum())
     return Diagnosis(found.seconds, tuple(holds), tuple(savings), left, problem.names)
+
+
+def largest_holds(held: Array, seconds: float) -> list[Hold]:
+    """List the shares of the limits in a time.
+
+    Parameters
+    ----------
+    held : Array, shape (3, n_segments, dof) [s]
+        Time that each velocity, acceleration and jerk limit holds each segment.
+    seconds : float [s]
+        The whole time.
+
+    Returns
+    -------
+    list of Hold
+        Largest first, those shorter than 1e-3 of the time left out.
+    """
+    holds = [
+        Hold(int(j), QUANTITIES[o + 1], int(k), float(held[o, k, j]))
+        for o, k, j in np.argwhere(held > _LEAST * max(seconds, 1e-300))
+    ]
+    return sorted(holds, key=lambda hold: -hold.seconds)
 
 
 def _held(problem: Problem, found: FreeForm) -> Array:

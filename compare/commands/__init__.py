@@ -9,7 +9,7 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 
-DONE, FAILED, BAD_INPUT, INTERRUPTED = 0, 1, 2, 130  # exit codes
+DONE, FAILED, BAD_INPUT, BROKEN, INTERRUPTED = 0, 1, 2, 3, 130  # exit codes
 
 
 @dataclass(frozen=True)
@@ -45,6 +45,16 @@ _ALL = (
         "plan", "compare.commands.plan:plan", MOTIONS,
         "Find the fastest motion through the waypoints, also with stops or given times.",
         "timebound plan ur5 --stop 1 --pass 2=12.5 --export ur5.csv --rate 125",
+    ),
+    Command(
+        "check", "compare.commands.check:check_motion", MOTIONS,
+        "Judge a motion made elsewhere: limits, waypoints, jumps, gap to the bound.",
+        "timebound check sr4c motion.csv --interpolation cubic --json verdict.json",
+    ),
+    Command(
+        "retime", "compare.commands.retime:retime_motion", MOTIONS,
+        "Time a path or a motion anew: TOPP-RA, COPP, and freely within a tolerance.",
+        "timebound retime path.csv --limits ur5 --tolerance 0.005 --export faster.csv",
     ),
     Command(
         "split", "compare.commands.split:split", MOTIONS,

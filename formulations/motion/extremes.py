@@ -1,15 +1,21 @@
 """Exact extremes of piecewise polynomials, from the roots of their derivatives and never from samples.
 
-Linear and quadratic derivatives have closed forms; others are roots by eigenvalues, polished by Newton.
+A derivative whose Bernstein coefficients on the piece have one sign has no root inside (Descartes' rule of
+signs), so that the extremes are at the ends. Most pieces of a densely sampled motion are of this kind. Of the
+others, linear and quadratic derivatives have closed forms; the rest are roots by eigenvalues, polished by
+Newton.
 """
 
 from __future__ import annotations
 
 from dataclasses import dataclass
+from math import comb
 
 import numpy as np
 
 from formulations.problem.arrays import Array
+
+_BLOCK = 1 << 15  # polynomials that are looked at together: they stay in the cache
 
 
 @dataclass(frozen=True)
@@ -48,18 +54,61 @@ def find_extremes(pieces: Array, durations: Array, breaks: Array, order: int) ->
     -------
     Extremes
     """
-    value = differentiated(pieces, order)
-    ends = np.broadcast_to([0.0, 1.0], (*value.shape[:2], 2))
-    candidates = np.concatenate([ends, _turning_points(differentiated(value, 1))], axis=2)
-    values = evaluated(value, candidates) / durations[:, None, None] ** order
-    lowest, highest = values.argmin(axis=2)[..., None], values.argmax(axis=2)[..., None]
-    times = breaks[:-1, None, None] + candidates * durations[:, None, None]
+    shape = pieces.shape[:2]
+    flat = pieces.reshape(-1, pieces.shape[2])
+    found = np.empty((4, len(flat)))
+    for first in range(0, len(flat), _BLOCK):
+        block = slice(first, first + _BLOCK)
+        found[:, block] = _extremes_of(differentiated(flat[block], order))
+    low, high, when_low, when_high = found.reshape(4, *shape)
+    seconds, start = durations[:, None], breaks[:-1, None]
     return Extremes(
-        low=np.take_along_axis(values, lowest, 2)[..., 0],
-        high=np.take_along_axis(values, highest, 2)[..., 0],
-        time_low=np.take_along_axis(times, lowest, 2)[..., 0],
-        time_high=np.take_along_axis(times, highest, 2)[..., 0],
+        low=low / seconds**order,
+        high=high / seconds**order,
+        time_low=start + when_low * seconds,
+        time_high=start + when_high * seconds,
     )
+
+
+def _extremes_of(polynomials: Array) -> Array:
+    """Least and greatest value on [0, 1] of polynomials (m, k), and where they are taken, (4, m)."""
+    at_start = polynomials[:, 0]
+    at_end = evaluated(polynomials, np.ones((len(polynomials), 1)))[:, 0]
+    found = np.stack(
+        [
+            np.minimum(at_start, at_end),
+            np.maximum(at_start, at_end),
+            at_end < at_start,
+            at_end > at_start,
+        ]
+    )
+    slopes = differentiated(polynomials, 1)
+    rows = np.flatnonzero(_may_turn(slopes))
+    if len(rows):
+        ends = np.broadcast_to([0.0, 1.0], (len(rows), 2))
+        candidates = np.concatenate([ends, _turning_points(slopes[rows])], axis=1)
+        values = evaluated(polynomials[rows], candidates)
+        each = np.arange(len(rows))
+        for k, choice in enumerate((values.argmin(axis=1), values.argmax(axis=1))):
+            found[k, rows], found[k + 2, rows] = values[each, choice], candidates[each, choice]
+    return found
+
+
+def _may_turn(slopes: Array) -> Array:
+    """Whether each of the polynomials (m, k) may have a root in [0, 1], (m,).
+
+    It has none if its Bernstein coefficients are all positive or all negative beyond rounding, nor a
+    change of sign if they are all zero.
+    """
+    degree = slopes.shape[1] - 1
+    to_bernstein = np.array(
+        [[comb(i, k) / comb(degree, k) for k in range(degree + 1)] for i in range(degree + 1)]
+    )
+    bernstein = to_bernstein @ slopes.T
+    low, high = bernstein.min(axis=0), bernstein.max(axis=0)
+    # a power coefficient is at most 3^degree times the largest Bernstein coefficient
+    rounding = (degree + 2) * 3.0**degree * np.finfo(np.float64).eps
+    return np.asarray((low < rounding * high) & (high > rounding * low))
 
 
 def differentiated(polynomials: Array, order: int) -> Array:
@@ -98,7 +147,7 @@ def evaluated(polynomials: Array, points: Array) -> Array:
     -------
     Array, shape (..., m)
     """
-    values = np.zeros_like(points)
+    values = np.zeros(points.shape)
     for k in range(polynomials.shape[-1] - 1, -1, -1):
         values = values * points + polynomials[..., k : k + 1]
     return values

@@ -14,7 +14,8 @@ import numpy as np
 from formulations.motion.trajectory import Trajectory
 from formulations.problem.arrays import Array
 
-_SAMPLES = 8  # per piece, where the search for local minima starts
+_SAMPLES = 8  # per piece, where the search for local minima starts; two in motions of very many pieces
+_ALL_SAMPLES = 200_000
 _GOLDEN = 0.5 * (5.0**0.5 - 1.0)
 _SECTIONS = 35  # golden sections: to 1e-7 of two samples
 _NEWTON = 3  # steps from there
@@ -52,10 +53,8 @@ def passages(trajectory: Trajectory, waypoints: Array) -> Passages:
     Passages
         Times and misses; a waypoint that is not passed gets the time of its nearest approach.
     """
-    total = trajectory.seconds
-    candidates = [np.array([0.0])]
-    candidates += [_approaches(trajectory, waypoint) for waypoint in waypoints[1:-1]]
-    candidates.append(np.array([total]))
+    candidates = [np.array([0.0]), *_approaches(trajectory, waypoints[1:-1])]
+    candidates.append(np.array([trajectory.seconds]))
     distances = [
         np.abs(trajectory.at(times) - waypoint).max(axis=1)
         for times, waypoint in zip(candidates, waypoints, strict=True)
@@ -77,12 +76,23 @@ def passages(trajectory: Trajectory, waypoints: Array) -> Passages:
     return Passages(times, trajectory.at(times) - waypoints)
 
 
-def _approaches(trajectory: Trajectory, waypoint: Array) -> Array:
-    """Times of the nearest local minima of the distance to one waypoint, both ends included [s]."""
-    steps = np.linspace(0.0, 1.0, _SAMPLES, endpoint=False)
+def _approaches(trajectory: Trajectory, waypoints: Array) -> list[Array]:
+    """Times of the nearest local minima of the distance to each waypoint (n, dof) [s]."""
+    if not len(waypoints):
+        return []
+    count = int(np.clip(_ALL_SAMPLES // len(trajectory.durations), 2, _SAMPLES))
+    steps = np.linspace(0.0, 1.0, count, endpoint=False)
     times = (trajectory.breaks[:-1, None] + trajectory.durations[:, None] * steps).ravel()
     times = np.append(times, trajectory.seconds)
-    distance = np.square(trajectory.at(times) - waypoint).sum(axis=1)
+    positions = trajectory.at(times)
+    return [_approaches_of_one(trajectory, waypoint, times, positions) for waypoint in waypoints]
+
+
+def _approaches_of_one(
+    trajectory: Trajectory, waypoint: Array, times: Array, positions: Array
+) -> Array:
+    """Those of one waypoint, both ends included; positions (n_times, dof) at times are known."""
+    distance = np.asarray(np.square(positions - waypoint).sum(axis=1))
     padded = np.concatenate([[np.inf], distance, [np.inf]])
     lowest = (distance <= padded[:-2]) & (distance <= padded[2:])
     # of a standstill, the first and the last moment are enough

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 from functools import cached_property
+from math import factorial
 
 import numpy as np
 from numpy.typing import ArrayLike
@@ -215,7 +216,7 @@ class Trajectory:
     def _extremes(self) -> dict[int, Extremes]:
         return {}
 
-    @property
+    @cached_property
     def _normalised(self) -> Array:
         """Coefficients on normalised time s = t / T of each piece."""
         return self.coefficients * self.durations[:, None, None] ** np.arange(
@@ -223,13 +224,23 @@ class Trajectory:
         )
 
     @cached_property
+    def jumps_between(self) -> Array:
+        """Jump of position, velocity, acceleration at each inner break, (3, n_pieces - 1, dof)."""
+        return np.stack([np.abs(self._start(k)[1:] - self._end(k)[:-1]) for k in range(3)])
+
+    @property
     def jumps(self) -> Array:
         """Largest jump per joint of position, velocity, acceleration at inner breaks, (3, dof)."""
-        ends = np.stack([self._edge(order, 1.0)[:-1] for order in range(3)])
-        starts = np.stack([self._edge(order, 0.0)[1:] for order in range(3)])
-        return np.asarray(np.abs(starts - ends).max(axis=1, initial=0.0))
+        return np.asarray(self.jumps_between.max(axis=1, initial=0.0))
 
-    def _edge(self, order: int, s: float) -> Array:
+    def _start(self, order: int) -> Array:
+        """A derivative at the start of each piece, (n_pieces, dof)."""
+        if order >= self.coefficients.shape[2]:
+            return np.zeros(self.coefficients.shape[:2])
+        return np.asarray(self.coefficients[..., order] * factorial(order))
+
+    def _end(self, order: int) -> Array:
+        """The same at its end."""
         value = differentiated(self._normalised, order)
-        at = np.full((*value.shape[:2], 1), s)
-        return evaluated(value, at)[..., 0] / self.durations[:, None] ** order
+        at = np.broadcast_to(1.0, (*value.shape[:2], 1))
+        return np.asarray(evaluated(value, at)[..., 0] / self.durations[:, None] ** order)

@@ -8,6 +8,7 @@ is discretised: the grid is doubled once, and the change is stated.
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from typing import Any
 
 import numpy as np
@@ -16,6 +17,8 @@ from formulations.motion.trajectory import Trajectory
 from formulations.problem.arrays import Array
 from formulations.problem.problem import Problem
 from formulations.references.reference import Outcome, Rung, RungKind, Takes
+
+Profile = tuple[Array, Array, Array, Array]
 
 _GRIDS = (24, 48)  # intervals per piece
 _SETTLED = 1e-5  # relative change of the time at which linearising again ends
@@ -47,10 +50,10 @@ def copp_on(problem: Problem, path: Trajectory) -> Outcome:
     if not problem.moving_joints:
         return Outcome.ok(0.0, note="nothing moves")
     found: list[float] = []
-    profile: tuple[Array, Array, Array] | None = None
+    profile: Profile | None = None
     for grid in _GRIDS:
         try:
-            seconds, profile = _refined(problem, path, grid, profile)
+            seconds, profile = profile_on(problem, path, grid, profile, problem.moving_joints)
         except copp_py.CoppError as error:
             return Outcome.failed(f"COPP at {grid} intervals per piece: {error}")
         found.append(seconds)
@@ -60,10 +63,35 @@ def copp_on(problem: Problem, path: Trajectory) -> Outcome:
     )
 
 
-def _refined(
-    problem: Problem, path: Trajectory, grid: int, before: tuple[Array, Array, Array] | None
-) -> tuple[float, tuple[Array, Array, Array]]:
-    """Solve on one grid: the time [s] and the profile (s, a, b). before: the profile of a coarser grid."""
+def profile_on(
+    problem: Problem,
+    path: Trajectory,
+    grid: int,
+    before: Profile | None,
+    moving: Sequence[int],
+) -> tuple[float, Profile]:
+    """Solve on one grid.
+
+    Parameters
+    ----------
+    problem : Problem
+        Its limits count.
+    path : Trajectory
+        A motion that keeps them.
+    grid : int
+        Intervals per piece of it.
+    before : Profile, optional
+        The profile of a coarser grid.
+    moving : sequence of int
+        Joints that move along the path.
+
+    Returns
+    -------
+    seconds : float [s]
+    profile : Profile
+        Four arrays (n_grid,): places s on the path by the time of the motion given [s],
+        a = (ds/dt)^2, b = d^2 s/dt^2, and the times at which the places are passed [s].
+    """
     from copp_py.interpolation import s_to_t_topp3
     from copp_py.robot import Robot
     from copp_py.solver import topp3_socp
@@ -78,7 +106,7 @@ def _refined(
         ),
         path.seconds,
     )
-    moving, n = problem.moving_joints, len(s)
+    moving, n = list(moving), len(s)
     robot = Robot(len(moving), capacity=n)
     robot.append_s(s)
     q, dq, ddq, dddq = (np.ascontiguousarray(path.at(s, order)[:, moving]) for order in range(4))
@@ -103,13 +131,13 @@ def _refined(
             num_stationary_max=0, b_linearization=b,
         )  # fmt: skip
         answer = conic.solve(task)
-        seconds = float(s_to_t_topp3(s, answer)[0])
+        seconds, passed = s_to_t_topp3(s, answer)
         a, b = np.maximum(answer.a, _FLOOR), np.asarray(answer.b)
         if abs(seconds / last - 1.0) < _SETTLED:
             break
         last = seconds
     assert b is not None
-    return seconds, (s, a, b)
+    return float(seconds), (s, a, b, np.asarray(passed))
 
 
 COPP_FAMILY_PATH = Rung(

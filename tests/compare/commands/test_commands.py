@@ -77,7 +77,7 @@ def test_an_example_can_be_parsed(name: str) -> None:
 
 @pytest.mark.parametrize("name", COMMANDS)
 def test_an_unknown_option_is_one_line(name: str, capsys: pytest.CaptureFixture[str]) -> None:
-    given = [name, "sr4c"] if name in NEED_A_FILE else [name]
+    given = [name, *["sr4c"] * ((name in NEED_A_FILE) + (name == "check"))]  # it needs two
     assert main([*given, "--nonsense", "1"]) == 2
     said = capsys.readouterr()
     assert said.err.startswith("error: ")
@@ -86,12 +86,14 @@ def test_an_unknown_option_is_one_line(name: str, capsys: pytest.CaptureFixture[
     assert said.out == ""
 
 
-NEED_A_FILE = ("solve", "plan", "split", "motion_picture", "check_certificate", "report")
+NEED_A_FILE = ("solve", "plan", "check", "split", "motion_picture", "check_certificate", "report")
 
 BAD = {
     "new": (["--limits", "joint_limits.yaml"], "--limits: needs a robot (--from-urdf URDF)"),
     "solve": (["nowhere.toml"], "nowhere.toml: no such file"),
     "plan": (["sr4c", "--stop", "soon"], '--stop: unable to convert "soon" into int'),
+    "check": (["sr4c", "nowhere.csv"], "nowhere.csv: cannot be read"),
+    "retime": (["nowhere.csv", "--limits", "sr4c"], "nowhere.csv: cannot be read"),
     "split": (["sr4c", "--swarm", "psoo"], "--swarm: 'psoo' is not known; did you mean 'pso'?"),
     "motion_picture": (["sr4d"], "CASE: no arm is known for 'sr4d'"),
     "check_certificate": (["nowhere.json"], "nowhere.json: cannot be read"),

@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from time import process_time
+
 import numpy as np
 import pytest
 from conftest import Array, durations, powers_of_ten
@@ -16,6 +18,7 @@ from planted_motions import (
 )
 
 from formulations import Trajectory
+from formulations.motion.interpolation import joined
 
 # --- exact extremes: closed forms -----------------------------------------------------------------
 
@@ -158,3 +161,43 @@ def test_pieces_of_unlike_degrees_do_not_disturb_each_other(rows: list[Array], t
                 size = float(np.abs(rows[2 * piece + joint]).sum()) * (7.0 / times[piece]) ** order
                 for a, b in ((found.low, one.low), (found.high, one.high)):
                     assert a[piece, joint] == pytest.approx(b[0, 0], rel=1e-12, abs=1e-13 * size)
+
+
+# --- pieces without a turning point are left out of the search for roots ---------------------------
+
+
+def by_roots_of_every_piece(c: Array, order: int) -> tuple[float, float]:
+    """Least and greatest value on [0, 1] of a derivative, all roots of its slope looked at."""
+    p = np.polynomial.Polynomial(c).deriv(order) if order else np.polynomial.Polynomial(c)
+    roots = p.deriv().roots()
+    inside = roots.real[(np.abs(roots.imag) < 1e-6) & (roots.real > 0.0) & (roots.real < 1.0)]
+    values = p(np.concatenate([[0.0, 1.0], inside]))
+    return float(values.min()), float(values.max())
+
+
+@given(seed=st.integers(0, 10**6), decay=st.floats(0.0, 3.0), order=st.integers(0, 3))
+@settings(max_examples=30)
+def test_pieces_that_only_rise_or_fall_have_the_same_extremes_as_ever(
+    seed: int, decay: float, order: int
+) -> None:
+    """With a strong decay, most pieces are monotone; without, most turn."""
+    c = np.random.default_rng(seed).normal(size=(10, 4, 6)) * 10.0 ** (-decay * np.arange(6))
+    found = Trajectory(np.ones(10), c).extremes(order)
+    for piece, joint in np.ndindex(10, 4):
+        low, high = by_roots_of_every_piece(c[piece, joint], order)
+        size = float(np.abs(c[piece, joint]).sum()) * 5.0**order
+        assert found.low[piece, joint] == pytest.approx(low, abs=1e-12 * size)
+        assert found.high[piece, joint] == pytest.approx(high, abs=1e-12 * size)
+
+
+def test_a_minute_of_seven_joints_at_1_khz_is_searched_in_a_second() -> None:
+    t = np.arange(60_001)[:, None] * 1e-3
+    speed, phase = np.linspace(0.5, 3.0, 7), np.arange(7.0)
+    swing = speed * t + phase
+    motion = joined(t[:, 0], np.sin(swing), speed * np.cos(swing), -(speed**2) * np.sin(swing))
+    start = process_time()
+    for order in range(4):
+        found = motion.extremes(order)
+        if order < 3:  # the jerk of a quintic between samples is not that of the sine
+            assert found.high.max(axis=0) == pytest.approx(speed**order, rel=1e-9)
+    assert process_time() - start < 1.5  # eigenvalues of every piece: 4 s and more

@@ -1,0 +1,154 @@
+"""Where a motion uses most of each limit, by its exact extremes."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import dataclass
+
+import numpy as np
+
+from formulations.motion.trajectory import Trajectory
+from formulations.problem.conditions import Conditions
+from formulations.problem.joint_words import factors, shown_unit
+from formulations.problem.problem import Problem
+
+QUANTITIES = ("position", "velocity", "acceleration", "jerk")
+
+
+@dataclass(frozen=True)
+class Peak:
+    """The place where a motion uses most of one kind of limit.
+
+    Attributes
+    ----------
+    quantity : str
+        One of ``QUANTITIES``.
+    joint, segment : int
+        Where it is; both count from 0.
+    time : float
+        When it is, from the start [s].
+    value, limit : float
+        What is reached and what is allowed [rad/s^k].
+    factor : float
+        Value over limit. For a position: 1 plus the excess over the width of the allowed range.
+    stretch : float
+        Factor on all durations that would just keep the limit; infinite for a position, as no stretch
+        changes the path.
+    name : str
+        Name of the joint; empty where it has none.
+    unit, angle : str
+        Unit of the joint's position, "rad" or "m", and the one that angles are shown in, "rad" or "deg".
+    """
+
+    quantity: str
+    joint: int
+    segment: int
+    time: float
+    value: float
+    limit: float
+    factor: float
+    stretch: float
+    name: str = ""
+    unit: str = "rad"
+    angle: str = "rad"
+
+    def __str__(self) -> str:
+        unit = shown_unit(self.unit, self.angle, QUANTITIES.index(self.quantity))
+        scale = float(factors([self.unit], self.angle)[0])
+        return (
+            f"{self.quantity} of joint {self.name or self.joint + 1} in segment {self.segment + 1} at "
+            f"{self.time:.4f} s: {self.value / scale:.6g} {unit}, limit {self.limit / scale:.6g} {unit}, "
+            f"factor {self.factor:.6g}"
+        )
+
+    @property
+    def urgency(self) -> float:
+        """What peaks are sorted by: the stretch, or for a position the factor."""
+        return self.stretch if np.isfinite(self.stretch) else self.factor
+
+
+def peaks_of_joints(problem: Problem, trajectory: Trajectory, asked: Conditions) -> list[Peak]:
+    """Find the worst place of every limited quantity of every joint.
+
+    Parameters
+    ----------
+    problem : Problem
+        Its limits hold where the conditions give no others.
+    trajectory : Trajectory
+        The motion.
+    asked : Conditions
+        May limit single segments further.
+
+    Returns
+    -------
+    list of Peak
+        At most one for each joint and quantity.
+    """
+    found = []
+    # each piece belongs to the segment that its middle lies in
+    middles = trajectory.breaks[:-1] + 0.5 * trajectory.durations
+    segments = np.searchsorted(trajectory.passage_times, middles) - 1
+    segments = np.clip(segments, 0, max(len(trajectory.passage_times) - 2, 0))
+    mine = np.minimum(segments, problem.n_segments - 1)  # a motion may have no inner waypoints
+
+    def peak(order: int, piece: int, joint: int, high: bool, limit: float, factor: float) -> Peak:
+        time = float((extremes.time_high if high else extremes.time_low)[piece, joint])
+        value = float((extremes.high if high else extremes.low)[piece, joint])
+        stretch = factor ** (1.0 / order) if order else np.inf
+        name = QUANTITIES[order]
+        words = (
+            problem.names[joint] if problem.names else "",
+            problem.units[joint],
+            problem.display_unit,
+        )
+        return Peak(name, joint, int(segments[piece]), time, value, limit, factor, stretch, *words)
+
+    bounds = asked.position_bounds(problem)
+    if np.isfinite(bounds).any():
+        extremes = trajectory.extremes(0)
+        low, high = bounds[mine, :, 0], bounds[mine, :, 1]
+        width = np.where(np.isfinite(high - low), high - low, 1.0)
+        slack = problem.position_slack
+        below, above = low - slack - extremes.low, extremes.high - high - slack
+        excess = np.maximum(below, above)
+        for joint, piece in enumerate(excess.argmax(axis=0).tolist()):
+            is_high = bool(above[piece, joint] >= below[piece, joint])
+            limit = float((high if is_high else low)[piece, joint])
+            if np.isfinite(limit):
+                # strictly inside counts as exactly 1: a position is kept or not
+                factor = 1.0 + max(float(excess[piece, joint]), 0.0) / float(width[piece, joint])
+                found.append(peak(0, piece, joint, is_high, limit, factor))
+    for order in (1, 2, 3):
+        limits = asked.derivatives(problem)[order - 1]
+        if not np.isfinite(limits).any():
+            continue
+        limits = limits[mine]
+        extremes = trajectory.extremes(order)
+        upper, lower = extremes.high / limits, -extremes.low / limits
+        ratio = np.maximum(upper, lower)
+        for joint, piece in enumerate(ratio.argmax(axis=0).tolist()):
+            limit = float(limits[piece, joint])
+            if np.isfinite(limit):
+                is_high = bool(upper[piece, joint] >= lower[piece, joint])
+                found.append(peak(order, piece, joint, is_high, limit, float(ratio[piece, joint])))
+    return found
+
+
+def worst_of_quantities(peaks: Sequence[Peak]) -> list[Peak]:
+    """Keep the worst place of each quantity.
+
+    Parameters
+    ----------
+    peaks : sequence of Peak
+        Of single joints.
+
+    Returns
+    -------
+    list of Peak
+        Worst first.
+    """
+    worst: dict[str, Peak] = {}
+    for peak in peaks:
+        if peak.quantity not in worst or peak.factor > worst[peak.quantity].factor:
+            worst[peak.quantity] = peak
+    return sorted(worst.values(), key=lambda peak: peak.urgency, reverse=True)
