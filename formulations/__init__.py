@@ -15,7 +15,7 @@ from formulations.optima.family.optimum import (
 from formulations.optima.family.papers_rule import longest_segment
 from formulations.optima.free_form import FreeForm, Sensitivity, free_form
 from formulations.problem.conditions import Conditions
-from formulations.problem.errors import InputError, NoFeasibleMotion, UnsupportedProblem
+from formulations.problem.errors import InputError, NoFeasibleMotion, NotFoundInTime, UnsupportedProblem
 from formulations.problem.problem import Limits, Problem
 from formulations.problem.problem_file import CASES, load, parse
 from formulations.proofs.every_motion.bound import FreeFormBound, free_form_bound
@@ -36,6 +36,7 @@ __all__ = [
     "Ladder",
     "Limits",
     "NoFeasibleMotion",
+    "NotFoundInTime",
     "Problem",
     "Sensitivity",
     "Trajectory",

@@ -2,18 +2,35 @@
 
 from __future__ import annotations
 
+import sys
 from math import isfinite
 from typing import Annotated
 
 import numpy as np
 from cyclopts import Parameter
 
-from compare.commands import DONE
-from compare.commands.options import Export, Gap, Json, ProblemFile, Rate
+from compare.commands import DONE, FAILED, INTERRUPTED
+from compare.commands.options import Export, Gap, Json, ProblemFile, Rate, TimeLimit
+from compare.interrupts import ctrl_c_stops
 from compare.screen import show, stages
-from formulations import Conditions, FreeForm, InputError, NoFeasibleMotion, Problem, free_form, load
+from formulations import (
+    Conditions,
+    FreeForm,
+    InputError,
+    NoFeasibleMotion,
+    NotFoundInTime,
+    Problem,
+    free_form,
+    load,
+)
 from formulations.motion.motion_file import write_motion
+from formulations.optima.free_form import SearchStatus
 from formulations.problem.arrays import Array
+
+_CUT_SHORT = {
+    SearchStatus.TIME_LIMIT: "the time limit ended the search",
+    SearchStatus.INTERRUPTED: "Ctrl-C ended the search",
+}
 
 Velocities = Annotated[str | None, Parameter(metavar="V,V,..", allow_leading_hyphen=True)]
 
@@ -28,13 +45,15 @@ def plan(
     start_velocity: Velocities = None,
     end_velocity: Velocities = None,
     gap: Gap = 1e-3,
+    time_limit: TimeLimit = None,
     export: Export = None,
     rate: Rate = None,
     json: Json = None,
 ) -> int:
     """Find the fastest motion through the waypoints of a problem, or the smoothest in a given time.
 
-    Waypoints count from 0, the start. --stop and --pass can be given several times.
+    Waypoints count from 0, the start. --stop and --pass can be given several times. Ctrl-C ends the search
+    with the best motion that was verified until then, and exit code 130.
 
     Parameters
     ----------
@@ -58,13 +77,19 @@ def plan(
         end_velocity=_velocity("--end-velocity", end_velocity, problem),
     )
     try:
-        with stages(problem.name) as stage:
+        with ctrl_c_stops() as asked_to_stop, stages(problem.name) as stage:
             found = free_form(
                 problem,
                 conditions=conditions,
                 tolerance=gap,
+                time_limit=time_limit,
+                stop=asked_to_stop,
                 progress=lambda what, seconds: stage(f"{what}: {seconds:.6g} s"),
             )
+            interrupted = asked_to_stop()
+    except NotFoundInTime as reason:
+        print(f"error: {problem.name}: {reason}", file=sys.stderr)
+        return INTERRUPTED if asked_to_stop() else FAILED
     except NoFeasibleMotion as reason:
         raise NoFeasibleMotion(f"{problem.name}: {reason}") from None
     text = as_text(problem, found)
@@ -74,7 +99,7 @@ def plan(
         write_motion(export, found.trajectory, rate=rate)
         text += f"\n\n{export}: written"
     show(text, as_json(problem, found), json)
-    return DONE
+    return INTERRUPTED if interrupted else DONE
 
 
 def _passages(texts: list[str]) -> dict[int, float]:
@@ -119,7 +144,9 @@ def as_text(problem: Problem, found: FreeForm) -> str:
     str
         The lines.
     """
-    lines = [f"{problem.name}: {found.seconds:.9g} s ({found.method}, {found.status})"]
+    lines = [f"{problem.name}: {found.seconds:.9g} s ({found.method}, {found.ending})"]
+    if found.status in _CUT_SHORT:
+        lines.append(f"{_CUT_SHORT[found.status]}: this is the best verified motion until then")
     if found.trajectory is None or found.verdict is None:
         return lines[0]
     passed = ", ".join(f"{time:.6g}" for time in found.trajectory.passage_times)
@@ -151,7 +178,8 @@ def as_json(problem: Problem, found: FreeForm) -> dict[str, object]:
         "seconds": found.seconds,
         "passage_times": passed,
         "method": found.method,
-        "status": found.status,
+        "status": found.status.value,
+        "reason": found.reason,
         "notes": list(found.notes),
         "peaks": [
             {key: value for key, value in vars(peak).items() if key != "stretch"}

@@ -9,6 +9,8 @@ from typing import Any
 
 import numpy as np
 
+from formulations.deadlines import Deadline
+from formulations.deadlines.deadline import Stop
 from formulations.motion.trajectory import Trajectory
 from formulations.motion.verdict import TOLERANCE
 from formulations.problem.arrays import Array
@@ -39,7 +41,7 @@ class FreeFormBound:
         Time of the fastest motion known, given or found; None if there is none.
     status : BoundStatus
         How the search ended: "proved" (the gap asked for is reached), "tight as it gets" (narrower
-        boxes would prove no more), "time limit", "simple bounds only" or "solver failed".
+        boxes would prove no more), "time limit", "interrupted", "simple bounds only" or "solver failed".
     runtime : float [s]
         Time of the search on this machine.
     rows : int
@@ -101,6 +103,7 @@ def free_form_bound(
     gap: float = 1e-3,
     upper: float | None = None,
     time_limit: float = 60.0,
+    stop: Stop | None = None,
     record: bool = False,
     progress: Callable[[float, float | None], None] | None = None,
 ) -> FreeFormBound:
@@ -131,6 +134,8 @@ def free_form_bound(
         it a motion is searched for.
     time_limit : float, default 60 [s]
         The search ends after this time; the first linear program is solved in any case.
+    stop : callable, optional
+        Asked between two linear programs whether to end now.
     record : bool, default False
         Whether to keep the proof in ``certificate``. Where narrow boxes were needed, the certificate
         may prove slightly less.
@@ -184,13 +189,13 @@ def free_form_bound(
         raise InputError(f"gap: {gap!r} is not a positive number")
     if upper is not None and not (upper >= 0.0 and np.isfinite(upper)):
         raise InputError(f"upper: {upper!r} s is not a time")
-    if not time_limit >= 0.0:
-        raise InputError(f"time_limit: {time_limit!r} s is not a time")
+    deadline = Deadline(time_limit, stop)
     search = HorizonSearch(problem, upper, progress)
-    ending = search.run(gap, started + time_limit)
+    ending = search.run(gap, deadline)
     certificate = None
     if record and problem.moving_joints:
-        seconds, horizon, events = search.certify(started + 2.0 * time_limit)
+        left = max(2.0 * time_limit - (time.perf_counter() - started), 0.0)
+        seconds, horizon, events = search.certify(Deadline(left, stop))
         certificate = certificate_of(problem, seconds, events, horizon=horizon)
     method = max(search.bounds, key=lambda key: search.bounds[key])
     return FreeFormBound(
