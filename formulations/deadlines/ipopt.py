@@ -9,7 +9,7 @@ from __future__ import annotations
 
 import signal
 import threading
-from collections.abc import Callable, Iterator
+from collections.abc import Callable, Iterator, Sequence
 from contextlib import contextmanager
 from typing import Any
 
@@ -46,10 +46,16 @@ class StoppableIpopt:
     """A program that IPOPT solves until a deadline.
 
     CasADi derives Jacobian and Hessian in seconds where the program is large, and cannot be stopped
-    within. So each is derived by itself, when it is needed first, and the time is looked at in between.
+    within. So they are derived in parts, when they are needed first, and the time is looked at in between.
     """
 
-    def __init__(self, name: str, nlp: dict[str, Any], options: dict[str, Any]) -> None:
+    def __init__(
+        self,
+        name: str,
+        nlp: dict[str, Any],
+        options: dict[str, Any],
+        blocks: Sequence[Any] | None = None,
+    ) -> None:
         """Name the program; nothing is derived yet.
 
         Parameters
@@ -59,9 +65,14 @@ class StoppableIpopt:
             Symbols x, g, f and p, as ``casadi.nlpsol`` takes them.
         options : dict
             Those of ``casadi.nlpsol``.
+        blocks : sequence of casadi.SX, optional
+            Parts of g, in their order. Rows of one kind share a structure, so that the Jacobian of each
+            block takes fewer sweeps than that of the whole.
         """
+        self.blocks = [nlp["g"]] if blocks is None else blocks
         self.name, self.nlp, self.options = name, nlp, options
         self._callback = _AfterEachIteration(nlp)  # CasADi keeps no reference to it
+        self._prices = casadi.SX.sym("lam_f"), casadi.SX.sym("lam_g", nlp["g"].numel())
         self._derived: dict[str, Any] = {}
         self._solver: Any = None
 
@@ -101,26 +112,29 @@ class StoppableIpopt:
             return answer, self._solver.stats()
 
     def _derive(self, deadline: Deadline) -> None:
-        """Derive what IPOPT needs, step by step; unfinished where the time is over."""
-        program = casadi.Function(self.name, self.nlp, ["x", "p"], ["f", "g"])
-        steps: dict[str, Callable[[], Any]] = {
-            "grad_f": lambda: program.factory("nlp_grad_f", ["x", "p"], ["f", "grad:f:x"]),
-            "jac_g": lambda: program.factory("nlp_jac_g", ["x", "p"], ["g", "jac:g:x"]),
-        }
+        """Derive what IPOPT needs, part by part; unfinished where the time is over."""
+        x, p, f, g = (self.nlp[name] for name in "xpfg")
+        price, prices = self._prices
+        parts: dict[str, Callable[[], Any]] = {"slope": lambda: casadi.gradient(f, x)}
+        for index, block in enumerate(self.blocks):
+            parts[f"slopes {index}"] = lambda block=block: casadi.jacobian(block, x)
         if self.options.get("ipopt.hessian_approximation") != "limited-memory":
-            steps["hess_lag"] = lambda: program.factory(
-                "nlp_hess_l",
-                ["x", "p", "lam:f", "lam:g"],
-                ["triu:hess:gamma:x:x"],
-                {"gamma": ["f", "g"]},
-            )
-        for name, derive in steps.items():
+            parts["bend"] = lambda: casadi.hessian(price * f, x)[0]
+            parts["bends"] = lambda: casadi.hessian(casadi.dot(prices, g), x)[0]
+        for name, derive in parts.items():
             if deadline.over:
                 return
             if name not in self._derived:
                 self._derived[name] = derive()
+        found, derived = self._derived, {}
+        slopes = casadi.vertcat(*(found[f"slopes {index}"] for index in range(len(self.blocks))))
+        derived["grad_f"] = casadi.Function("nlp_grad_f", [x, p], [f, found["slope"]])
+        derived["jac_g"] = casadi.Function("nlp_jac_g", [x, p], [g, slopes])
+        if "bends" in found:
+            bends = casadi.triu(found["bend"] + found["bends"])
+            derived["hess_lag"] = casadi.Function("nlp_hess_l", [x, p, price, prices], [bends])
         # multipliers of the parameters would need a further gradient, which takes most of the time
-        options = {**self.options, **self._derived, "no_nlp_grad": True, "calc_lam_p": False}
+        options = {**self.options, **derived, "no_nlp_grad": True, "calc_lam_p": False}
         options["iteration_callback"] = self._callback
         self._solver = casadi.nlpsol(self.name, "ipopt", self.nlp, options)
 

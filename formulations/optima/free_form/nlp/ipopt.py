@@ -116,4 +116,6 @@ def _none(program: FreeFormNLP, x: Array, status: str) -> NLPSolution:
 
 @lru_cache(maxsize=64)
 def _solver(shape: Shape, options: tuple[tuple[str, Any], ...]) -> StoppableIpopt:
-    return StoppableIpopt("free_form", equations_of(shape).nlp, _OPTIONS | dict(options))
+    equations = equations_of(shape)
+    blocks = [block.symbols for block in equations.rows]
+    return StoppableIpopt("free_form", equations.nlp, _OPTIONS | dict(options), blocks)
