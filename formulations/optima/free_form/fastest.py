@@ -51,7 +51,7 @@ class FreeForm:
         "ok" if a local solve converged to this time, within the tolerance; "not converged"; "time limit"
         or "interrupted" if the search was ended before it was done.
     reason : str
-        How the solver ended, where no local solve converged; else empty.
+        Why the status is "not converged"; else empty.
     notes : tuple of str
         What a user should know about the answer.
     sensitivity : Sensitivity or None
@@ -214,16 +214,17 @@ def free_form(
     if not task.n_segments:
         return _nothing_moves(problem, asked, begun)
     search = MeshRefinement(task, solver, progress, deadline)
-    if task.timed:
-        notes += search.run_timed(mesh)
-    else:
-        search.run(mesh, tolerance)
+    with np.errstate(all="ignore"):  # what overflows is not finite, and the check refuses it
+        if task.timed:
+            notes += search.run_timed(mesh)
+        else:
+            search.run(mesh, tolerance)
     best = search.best
     status = search.status(tolerance)
     if best is None and search.ended:
         raise NotFoundInTime(f"{status}: no motion was found yet that keeps {_named(asked)}")
     if best is None:
-        raise NoFeasibleMotion(_why_not(problem, asked, search, mesh, solver, deadline))
+        raise NoFeasibleMotion(_why_not(problem, asked, search))
     if asked.none and best.verdict.seconds > 0.999 * search.stages[0].seconds:
         best = _or_ruckig(problem, best)
     if task.group(1):
@@ -239,7 +240,7 @@ def free_form(
         best.verdict,
         best.name,
         status,
-        "" if status is SearchStatus.OK else search.reason,
+        _reason(status, search),
         tuple(notes),
         search.sensitivity,
         tuple(search.stages),
@@ -274,6 +275,12 @@ def _or_ruckig(problem: Problem, best: VerifiedMotion) -> VerifiedMotion:
     return replace(best, name=name, trajectory=outcome.trajectory, verdict=verdict)
 
 
+def _reason(status: SearchStatus, search: MeshRefinement) -> str:
+    if status is SearchStatus.NOT_CONVERGED:
+        return search.reason or "the local solve converged to a slower motion"
+    return ""
+
+
 def _named(asked: Conditions) -> str:
     """The conditions that were asked for, by their keys."""
     named = [key for key in ("passage", "total", "stops", "segment_limits") if getattr(asked, key)]
@@ -281,38 +288,20 @@ def _named(asked: Conditions) -> str:
     return f"conditions.{', conditions.'.join(named)}"
 
 
-def _why_not(
-    problem: Problem,
-    asked: Conditions,
-    search: MeshRefinement,
-    mesh: int,
-    solver: Solver,
-    deadline: Deadline,
-) -> str:
-    """One line that names the conditions and, where times are fixed, what is possible without them."""
+def _why_not(problem: Problem, asked: Conditions, search: MeshRefinement) -> str:
+    """One line that names the conditions and, where times are fixed, the nearest times that are possible."""
     last = next((stage.status for stage in reversed(search.stages) if stage.status), "")
     if asked.none:
         return (
             f"no motion passes the check, as the numbers are too far apart for double precision: {last}"
         )
     line = f"no motion found that keeps {_named(asked)}"
-    if asked.times(problem):
-        freed = replace(asked, passage={}, total=None)
-        try:
-            fastest = free_form(
-                problem,
-                conditions=freed,
-                mesh=mesh,
-                solver=solver,
-                time_limit=deadline.left,
-                stop=deadline.stop,
-            )
-        except NoFeasibleMotion as none:
-            return f"{line}; nor without fixed times: {none}"
-        if fastest.trajectory is not None:
-            passed = [
-                f"waypoint {w} at {fastest.trajectory.passage_times[w]:.9g} s, {time:.9g} s asked for"
-                for w, time in sorted(asked.times(problem).items())
-            ]
-            return f"{line}; the fastest one found passes {'; '.join(passed)}"
+    near = search.nearest
+    if near is not None and search.missed > 0.0:
+        found = dict(enumerate([0.0, *np.cumsum(near.times)]))
+        passed = [
+            f"waypoint {w} at {found[search.task.waypoint_of[w]]:.9g} s, {time:.9g} s asked for"
+            for w, time in sorted(asked.times(problem).items())
+        ]
+        return f"{line}; the nearest one found passes {'; '.join(passed)}"
     return f"{line}; the last one tried: {last}"

@@ -12,12 +12,14 @@ from __future__ import annotations
 import time
 from collections.abc import Callable
 from dataclasses import replace
+from functools import partial
 
 import numpy as np
 
 from formulations.deadlines import NEVER, Deadline
 from formulations.motion.verdict import check
 from formulations.optima.free_form.ending import SearchEnded, SearchStatus
+from formulations.optima.free_form.faults import missed, outside
 from formulations.optima.free_form.nlp import ipopt, slp
 from formulations.optima.free_form.nlp.arcs import ArcMotion
 from formulations.optima.free_form.nlp.assembly import assemble
@@ -31,6 +33,7 @@ from formulations.optima.free_form.stop_and_go import stop_and_go_motion
 ROUNDS = 4  # of meshes, each with half as many arcs again as the one before
 _GUARDS = 6  # solutions on one mesh that may leave the position limits, each in further places
 _STRETCHES = 10  # attempts, the last with a margin of 1e-5
+_MISSED = 1e-6  # of the longest fixed time: more is not met
 _LOOSE, _TIGHT = 1e-6, 1e-9
 
 
@@ -66,8 +69,8 @@ class MeshRefinement:
             No stage is begun after it, except the first one, which needs no solver.
         """
         self.deadline, self.ended = deadline, False
-        self.task, self.solver, self.progress = task, solver, progress
-        self.solve = ipopt.solve if solver == "ipopt" else slp.solve
+        self.task, self.progress = task, progress
+        self._use(solver)
         self.best: VerifiedMotion | None = None
         self.stages: list[Stage] = []
         self.sensitivity: Sensitivity | None = None
@@ -75,7 +78,13 @@ class MeshRefinement:
         self.guarded: frozenset[tuple[int, int]] = frozenset()
         self.second = 1.0
         self.converged, self.reason = np.inf, ""
+        self.nearest: ArcMotion | None = None  # to the fixed times, and by how much it misses them
+        self.missed = 0.0
         self.clock = time.perf_counter()
+
+    def _use(self, solver: str) -> None:
+        solve = ipopt.solve if solver == "ipopt" else slp.solve
+        self.solver, self.solve = solver, partial(solve, deadline=self.deadline)
 
     def status(self, tolerance: float) -> SearchStatus:
         """Say how the search ended, of the best motion.
@@ -156,13 +165,17 @@ class MeshRefinement:
                 self.sensitivity = read_sensitivity(program, solution)
 
     def _run(self, mesh: int, tolerance: float) -> None:
-        start = stop_and_go_motion(self.task)
+        begin = start = stop_and_go_motion(self.task)
         found = self.offer("stop and go", start)
         self.second = float(start.times.mean())
         if not self.task.group(2) and not self.task.group(3):
             self.converged = np.inf if found is None else found.verdict.seconds
             return
-        if self.task.ends.any():  # the closed form starts and ends at rest
+        if self.task.times:
+            start = self._nearest(start, mesh)
+            if self.missed > _MISSED:
+                return
+        elif self.task.ends.any():  # the closed form starts and ends at rest
             self._states("stop and go, by Ruckig", start)
         arcs, before = mesh, np.inf
         for _ in range(ROUNDS):
@@ -171,8 +184,10 @@ class MeshRefinement:
             if tolerance >= 1e-3 or before - now <= 0.1 * tolerance * now:
                 break
             arcs, before = (3 * arcs) // 2, now
-        if self.solved is None and self.solve is ipopt.solve and self.task.stretchable:
-            self.solve = slp.solve
+        if self.task.times and not np.isfinite(self.converged):
+            self._round(begin, mesh, tolerance)
+        if self.solved is None and self.solver == "ipopt" and self.task.stretchable:
+            self._use("highs")
             self._round(start, mesh, tolerance)
         self._finish(tolerance)
 
@@ -202,14 +217,25 @@ class MeshRefinement:
             found = self.offer("steady", start)
             self.converged = np.inf if found is None else found.verdict.seconds
             return []
-        if self.solve is ipopt.solve:
+        if self.solver == "ipopt":
             self._solved("smoothest", start, 3 * mesh, free=False, tolerance=_TIGHT, smooth=True)
             if self.best is not None:
                 return []
         self._fastest_slowed(mesh)
-        if self.best is None:
+        if self.best is None and self.nearest is None:
             self._run(mesh, 1e-3)
         return ["not the smoothest motion: no solution of that program was found"]
+
+    def _nearest(self, start: ArcMotion, arcs: int) -> ArcMotion:
+        """Look for a motion that meets the fixed times: the one that misses them least."""
+        name, n = "nearest to the given times", arcs + arcs // 2
+        near = self._solved(name, start, n, free=False, tolerance=1e-6, elastic=True)
+        if missed(self.task, near) > 1e-6 or self.best is None:
+            finer = self._solved(f"{name}, arcs", near, arcs, free=True, tolerance=_TIGHT, elastic=True)
+            if missed(self.task, finer) < missed(self.task, near):
+                near = finer
+        self.missed, self.nearest = missed(self.task, near), near
+        return near
 
     def _fastest_slowed(self, mesh: int) -> None:
         """Slow the fastest motion down to the given time; it may violate other conditions."""
@@ -221,6 +247,8 @@ class MeshRefinement:
         if inner.best is not None:
             motion = inner.best.motion
             factor = task.times[task.n_segments] / float(motion.times.sum())
+            if factor < 1.0 and len(task.times) == 1:
+                self.nearest, self.missed = motion, missed(task, motion)
             found = self.offer("fastest, slowed down", motion.stretched(factor))
             if found is not None and inner.status(1e-3) is SearchStatus.OK:
                 self.converged = found.verdict.seconds
@@ -258,6 +286,7 @@ class MeshRefinement:
         free: bool,
         tolerance: float,
         smooth: bool = False,
+        elastic: bool = False,
     ) -> ArcMotion:
         """Solve on one mesh; where the motion leaves the position limits, pose rows (6) and solve again."""
         self._go_on()
@@ -269,24 +298,21 @@ class MeshRefinement:
                 second=self.second,
                 guarded=self.guarded,
                 smooth=smooth,
+                elastic=elastic,
             )
             solution = self.solve(
-                program,
-                program.point(start),
-                tolerance=tolerance,
-                near=1e-4 if free else None,
-                deadline=self.deadline,
+                program, program.point(start), tolerance=tolerance, near=1e-4 if free else None
             )
             motion = program.motion(solution.x)
-            outside = self._outside(motion) - self.guarded
-            if not outside or self.deadline.over:
+            leaving = outside(self.task, motion) - self.guarded
+            if not leaving or self.deadline.over:
                 break
-            self.guarded |= outside
+            self.guarded |= leaving
             start = motion
         found = self.offer(name, motion, solution.status)
-        if free or smooth:
+        if (free or smooth) and not elastic:
             self._note(solution, found)
-        if free and found is not None:
+        if free and found is not None and not elastic:
             self._remember(program, solution, found.verdict.seconds)
         return motion
 
@@ -307,18 +333,6 @@ class MeshRefinement:
         if self.solved is None or seconds < self.solved[2]:
             self.solved = (program, solution, seconds)
 
-    def _outside(self, motion: ArcMotion) -> frozenset[tuple[int, int]]:
-        """Pairs (joint, segment) where a motion leaves the position limits."""
-        whole = assemble(self.task, motion)
-        bounds = self.task.position_bounds
-        middles = whole.breaks[:-1] + 0.5 * whole.durations
-        passages = np.unique(whole.passage_times)
-        segment = np.searchsorted(passages, middles) - 1
-        extremes, slack = whole.extremes(0), self.task.problem.position_slack
-        low, high = bounds[segment, :, 0] - slack, bounds[segment, :, 1] + slack
-        out = (extremes.low < low) | (extremes.high > high)
-        return frozenset((int(j), int(segment[i])) for i, j in np.argwhere(out))
-
     def _finish(self, tolerance: float) -> None:
         """Solve the best arcs to full accuracy, and retime them."""
         if self.solved is None:
@@ -326,14 +340,7 @@ class MeshRefinement:
         program, solution, _ = self.solved
         if tolerance < 1e-4:
             self._go_on()
-            solution = self.solve(
-                program,
-                solution.x,
-                tolerance=_TIGHT,
-                near=1e-7,
-                warm=solution,
-                deadline=self.deadline,
-            )
+            solution = self.solve(program, solution.x, tolerance=_TIGHT, near=1e-7, warm=solution)
             motion = program.motion(solution.x)
             found = self.offer("arcs, to the last digits", motion, solution.status)
             if found is not None:

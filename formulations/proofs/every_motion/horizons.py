@@ -182,9 +182,7 @@ class HorizonSearch:
             if solution.status == LPStatus.TIME_LIMIT:
                 return _out_of_time(deadline), boxes
             if solution.status != LPStatus.OPTIMAL:
-                return Ending(
-                    BoundStatus.SOLVER_FAILED, f"HiGHS ended with {solution.reason.lower()}"
-                ), boxes
+                return Ending(BoundStatus.SOLVER_FAILED, _why(solution)), boxes
             typical = solution.x[frame.T] * typical
             self.typical[relaxed.segments], self.cuts = typical, program.cuts
             self._look_for_motion(typical, program.cuts, gap, deadline)
@@ -306,6 +304,12 @@ class HorizonSearch:
     def _tight(self, gap: float) -> bool:
         """Whether a motion, perhaps outside the position limits, shows that the relaxation proves no more."""
         return self.attained <= self.seconds * (1.0 + gap)
+
+
+def _why(solution: LPSolution) -> str:
+    if solution.status == LPStatus.REFUSED:
+        return "the numbers are too far apart for HiGHS"
+    return f"HiGHS ended with {solution.reason.lower()}"
 
 
 def _out_of_time(deadline: Deadline) -> Ending:

@@ -15,7 +15,6 @@ import pytest
 from commands_run import ROOT
 
 from compare.__main__ import main
-from formulations import Limits, Problem, check
 
 LIMITS = {"velocity": 2.0, "acceleration": 8.0, "jerk": 60.0}
 
@@ -52,7 +51,9 @@ def interrupted(process: subprocess.Popen[str], after: float) -> tuple[str, str,
 @pytest.mark.parametrize("after", [4.0, 6.0])
 def test_ctrl_c_gives_the_best_verified_motion_at_once(hundred: Path, after: float) -> None:
     answer = hundred.with_suffix(".json")
-    out, err, took = interrupted(started("plan", str(hundred), "--gap", "1e-6", "--json", str(answer)), after)
+    out, err, took = interrupted(
+        started("plan", str(hundred), "--gap", "1e-6", "--json", str(answer)), after
+    )
     assert took < 4.0  # 2 s on an idle machine
     assert "Ctrl-C ended the search: this is the best verified motion until then" in out, err
     assert err == ""
@@ -71,7 +72,9 @@ def test_ctrl_c_before_any_motion_is_one_line(tmp_path: Path) -> None:
     assert process.returncode == 130
     assert out == ""
     assert err.count("\n") == 1
-    assert err.startswith("error: timed: interrupted: no motion was found yet that keeps conditions.total")
+    assert err.startswith(
+        "error: timed: interrupted: no motion was found yet that keeps conditions.total"
+    )
 
 
 def test_the_time_limit_is_kept_and_said(hundred: Path, capsys: pytest.CaptureFixture[str]) -> None:

@@ -195,6 +195,8 @@ def _linear_step(
         options={"time_limit": max(min(deadline.left, _LONGEST), 1e-3)},
     )
     if found.x is None:
+        if "Model error" in str(found.message):  # HiGHS refuses coefficients beyond 1e15
+            return "the numbers are too far apart for HiGHS"
         return str(found.message).splitlines()[0]
     multipliers = np.zeros(len(rows))
     multipliers[equal] = -found.eqlin.marginals

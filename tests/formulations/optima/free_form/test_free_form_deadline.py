@@ -74,7 +74,7 @@ def test_ctrl_c_in_python_raises_between_two_iterations() -> None:
 
 @pytest.mark.parametrize("seconds", [-1.0, float("nan")])
 def test_a_time_limit_that_is_none_is_refused(seconds: float) -> None:
-    with pytest.raises(InputError, match="time_limit: .* is not a time"):
+    with pytest.raises(InputError, match=r"time_limit: .* is not a time"):
         free_form(UR5, time_limit=seconds)
 
 
