@@ -16,16 +16,22 @@ from compare.screen import show, stages
 from formulations import (
     Conditions,
     FreeForm,
+    FreeFormBound,
     InputError,
     NoFeasibleMotion,
     NotFoundInTime,
     Problem,
     free_form,
+    free_form_bound,
     load,
 )
+from formulations.deadlines import Deadline
 from formulations.motion.motion_file import write_motion
 from formulations.optima.free_form import SearchStatus
 from formulations.problem.arrays import Array
+from formulations.proofs.status import BoundStatus
+
+_PROOF = 20.0  # s for the bound, where the time limit leaves more
 
 _CUT_SHORT = {
     SearchStatus.TIME_LIMIT: "the time limit ended the search",
@@ -46,6 +52,7 @@ def plan(
     end_velocity: Velocities = None,
     gap: Gap = 1e-3,
     time_limit: TimeLimit = None,
+    no_bound: bool = False,
     export: Export = None,
     rate: Rate = None,
     json: Json = None,
@@ -67,6 +74,8 @@ def plan(
         Velocity at the start, one number per joint [rad/s].
     end_velocity
         Velocity at the end, one number per joint [rad/s].
+    no_bound
+        Prove nothing about how fast any motion could be, which saves some seconds.
     """
     problem = load(file)
     conditions = Conditions(
@@ -76,6 +85,7 @@ def plan(
         start_velocity=_velocity("--start-velocity", start_velocity, problem),
         end_velocity=_velocity("--end-velocity", end_velocity, problem),
     )
+    deadline = Deadline(time_limit)
     try:
         with ctrl_c_stops() as asked_to_stop, stages(problem.name) as stage:
             found = free_form(
@@ -86,19 +96,30 @@ def plan(
                 stop=asked_to_stop,
                 progress=lambda what, seconds: stage(f"{what}: {seconds:.6g} s"),
             )
+            bound = None
+            if not (no_bound or found.trajectory is None or conditions.total is not None):
+                stage("how fast any motion could be")
+                bound = free_form_bound(
+                    problem,
+                    conditions=conditions,
+                    gap=gap,
+                    upper=found.seconds,
+                    time_limit=deadline.within(_PROOF).left,
+                    stop=asked_to_stop,
+                )
             interrupted = asked_to_stop()
     except NotFoundInTime as reason:
         print(f"error: {problem.name}: {reason}", file=sys.stderr)
         return INTERRUPTED if asked_to_stop() else FAILED
     except NoFeasibleMotion as reason:
         raise NoFeasibleMotion(f"{problem.name}: {reason}") from None
-    text = as_text(problem, found)
+    text = as_text(problem, found, bound)
     if export is not None:
         if found.trajectory is None:
             raise InputError("--export: no joint moves, so there is no motion to write")
         write_motion(export, found.trajectory, rate=rate)
         text += f"\n\n{export}: written"
-    show(text, as_json(problem, found), json)
+    show(text, as_json(problem, found, bound), json)
     return INTERRUPTED if interrupted else DONE
 
 
@@ -129,7 +150,7 @@ def _velocity(key: str, text: str | None, problem: Problem) -> Array | None:
     return np.array(values)
 
 
-def as_text(problem: Problem, found: FreeForm) -> str:
+def as_text(problem: Problem, found: FreeForm, bound: FreeFormBound | None = None) -> str:
     """Say how long the motion takes, when it passes the waypoints, and which limits it uses most.
 
     Parameters
@@ -138,6 +159,8 @@ def as_text(problem: Problem, found: FreeForm) -> str:
         The task.
     found : FreeForm
         Its motion, judged.
+    bound : FreeFormBound, optional
+        What is proved of every motion under the same conditions.
 
     Returns
     -------
@@ -149,6 +172,8 @@ def as_text(problem: Problem, found: FreeForm) -> str:
         lines.append(f"{_CUT_SHORT[found.status]}: this is the best verified motion until then")
     if found.trajectory is None or found.verdict is None:
         return lines[0]
+    if bound is not None:
+        lines.append(_proved(bound))
     passed = ", ".join(f"{time:.6g}" for time in found.trajectory.passage_times)
     lines.append(f"waypoints passed at {passed} s")
     lines.append("verified: keeps every limit; used most:")
@@ -157,7 +182,15 @@ def as_text(problem: Problem, found: FreeForm) -> str:
     return "\n".join([*lines, *found.notes])
 
 
-def as_json(problem: Problem, found: FreeForm) -> dict[str, object]:
+def _proved(bound: FreeFormBound) -> str:
+    """How fast any motion could be, in one line."""
+    if not bound.seconds > 0.0:
+        return f"no bound was proved ({bound.ending})"
+    line = f"proved: no such motion takes less than {bound.seconds:.9g} s, gap {bound.gap or 0.0:.2g}"
+    return line if bound.status is BoundStatus.PROVED else f"{line} ({bound.ending})"
+
+
+def as_json(problem: Problem, found: FreeForm, bound: FreeFormBound | None = None) -> dict[str, object]:
     """The same as plain data, with every peak.
 
     Parameters
@@ -166,6 +199,8 @@ def as_json(problem: Problem, found: FreeForm) -> dict[str, object]:
         The task.
     found : FreeForm
         Its motion, judged.
+    bound : FreeFormBound, optional
+        What is proved of every motion under the same conditions.
 
     Returns
     -------
@@ -186,4 +221,6 @@ def as_json(problem: Problem, found: FreeForm) -> dict[str, object]:
             for peak in (() if found.verdict is None else found.verdict.peaks)
         ],
         "runtime": found.runtime,
+        "bound": None if bound is None or not bound.seconds > 0.0 else bound.seconds,
+        "gap": None if bound is None or not bound.seconds > 0.0 else bound.gap,
     }
