@@ -16,7 +16,7 @@ from formulations.optima.family.papers_rule import longest_segment
 from formulations.optima.free_form import FreeForm, Sensitivity, free_form
 from formulations.planning import PlannedMotion, plan
 from formulations.problem.conditions import Conditions
-from formulations.problem.errors import InputError, NoFeasibleMotion, UnsupportedProblem
+from formulations.problem.errors import InputError, NoFeasibleMotion, NotFoundInTime, UnsupportedProblem
 from formulations.problem.problem import Limits, Problem
 from formulations.problem.problem_file import CASES, load, parse
 from formulations.proofs.every_motion.bound import FreeFormBound, free_form_bound
@@ -38,6 +38,7 @@ __all__ = [
     "Ladder",
     "Limits",
     "NoFeasibleMotion",
+    "NotFoundInTime",
     "PlannedMotion",
     "Problem",
     "Robot",

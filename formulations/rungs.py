@@ -107,7 +107,7 @@ def _free_form(climb: Climb) -> Outcome:
     climb.free_form = found
     note = "; ".join([found.method, *found.notes])
     if found.status != "ok":
-        note += f"; {found.status}"
+        note += f"; {found.ending}"
     # splines and stop-and-go are motions too; the fastest one of all is reported
     others = {key: climb.seconds(key) for key in ("family", "ruckig_stop_and_go")}
     for key, seconds in others.items():

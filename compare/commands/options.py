@@ -286,4 +286,9 @@ Rate = Annotated[
     Parameter(name="--rate", metavar="HZ", validator=positive,
               help="Points per second in that file; where the jerk switches if left out."),
 ]  # fmt: skip
+TimeLimit = Annotated[
+    float | None,
+    Parameter(name="--time-limit", metavar="SECONDS", validator=positive,
+              help="End after this time, with the best that was verified and proved until then."),
+]  # fmt: skip
 Gap = Annotated[float, Parameter(name="--gap", validator=positive, help="Relative gap to be reached.")]

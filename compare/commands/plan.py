@@ -2,21 +2,43 @@
 
 from __future__ import annotations
 
+import sys
 from math import isfinite
 from typing import Annotated
 
 import numpy as np
 from cyclopts import Parameter
 
-from compare.commands import DONE
-from compare.commands.options import Export, Gap, Json, Rate
+from compare.commands import DONE, FAILED, INTERRUPTED
+from compare.commands.options import Export, Gap, Json, Rate, TimeLimit
 from compare.commands.problem_options import FileOrRobot, OwnRobotOptions, problem_of
+from compare.interrupts import ctrl_c_stops
 from compare.screen import show, stages
-from formulations import Conditions, FreeForm, InputError, NoFeasibleMotion, Problem, free_form
+from formulations import (
+    Conditions,
+    FreeForm,
+    FreeFormBound,
+    InputError,
+    NoFeasibleMotion,
+    NotFoundInTime,
+    Problem,
+    free_form,
+    free_form_bound,
+)
+from formulations.deadlines import Deadline
 from formulations.motion.verdict import QUANTITIES
 from formulations.optima.at_rate.export import check_export, export_motion
+from formulations.optima.free_form import SearchStatus
 from formulations.problem.arrays import Array
 from formulations.problem.joint_words import factors, shown_unit
+from formulations.proofs.status import BoundStatus
+
+_PROOF = 20.0  # s for the bound, where the time limit leaves more
+
+_CUT_SHORT = {
+    SearchStatus.TIME_LIMIT: "the time limit ended the search",
+    SearchStatus.INTERRUPTED: "Ctrl-C ended the search",
+}
 
 Velocities = Annotated[str | None, Parameter(metavar="V,V,..", allow_leading_hyphen=True)]
 
@@ -32,13 +54,16 @@ def plan(
     start_velocity: Velocities = None,
     end_velocity: Velocities = None,
     gap: Gap = 1e-3,
+    time_limit: TimeLimit = None,
+    no_bound: bool = False,
     export: Export = None,
     rate: Rate = None,
     json: Json = None,
 ) -> int:
     """Find the fastest motion through the waypoints of a problem, or the smoothest in a given time.
 
-    Waypoints count from 0, the start. --stop and --pass can be given several times.
+    Waypoints count from 0, the start. --stop and --pass can be given several times. Ctrl-C ends the search
+    with the best motion that was verified until then, and exit code 130.
 
     Parameters
     ----------
@@ -52,6 +77,8 @@ def plan(
         Velocity at the start, one number per joint, in the unit of the file (deg/s where it has degrees).
     end_velocity
         Velocity at the end, in the same way.
+    no_bound
+        Prove nothing about how fast any motion could be, which saves some seconds.
     """
     problem = problem_of(file, own)
     conditions = Conditions(
@@ -63,24 +90,42 @@ def plan(
     )
     if export is not None:
         check_export(export, problem, rate, conditions)
+    deadline = Deadline(time_limit)
     try:
-        with stages(problem.name) as stage:
+        with ctrl_c_stops() as asked_to_stop, stages(problem.name) as stage:
             found = free_form(
                 problem,
                 conditions=conditions,
                 tolerance=gap,
+                time_limit=time_limit,
+                stop=asked_to_stop,
                 progress=lambda what, seconds: stage(f"{what}: {seconds:.6g} s"),
             )
+            bound = None
+            if not (no_bound or found.trajectory is None or conditions.total is not None):
+                stage("how fast any motion could be")
+                bound = free_form_bound(
+                    problem,
+                    conditions=conditions,
+                    gap=gap,
+                    upper=found.seconds,
+                    time_limit=deadline.within(_PROOF).left,
+                    stop=asked_to_stop,
+                )
+            interrupted = asked_to_stop()
+    except NotFoundInTime as reason:
+        print(f"error: {problem.name}: {reason}", file=sys.stderr)
+        return INTERRUPTED if asked_to_stop() else FAILED
     except NoFeasibleMotion as reason:
         raise NoFeasibleMotion(f"{problem.name}: {reason}") from None
-    text = as_text(problem, found)
+    text = as_text(problem, found, bound)
     if export is not None:
         if found.trajectory is None:
             raise InputError("--export: no joint moves, so there is no motion to write")
         written = export_motion(export, problem, found.trajectory, rate, conditions=conditions)
         text = "\n".join([text, "", *written.lines()])
-    show(text, as_json(problem, found), json)
-    return DONE
+    show(text, as_json(problem, found, bound), json)
+    return INTERRUPTED if interrupted else DONE
 
 
 def _passages(texts: list[str]) -> dict[int, float]:
@@ -110,7 +155,7 @@ def _velocity(key: str, text: str | None, problem: Problem) -> Array | None:
     return np.array(values) * factors(problem.units, problem.display_unit)
 
 
-def as_text(problem: Problem, found: FreeForm) -> str:
+def as_text(problem: Problem, found: FreeForm, bound: FreeFormBound | None = None) -> str:
     """Say how long the motion takes, when it passes the waypoints, and which limits it uses most.
 
     Parameters
@@ -119,15 +164,21 @@ def as_text(problem: Problem, found: FreeForm) -> str:
         The task.
     found : FreeForm
         Its motion, judged.
+    bound : FreeFormBound, optional
+        What is proved of every motion under the same conditions.
 
     Returns
     -------
     str
         The lines.
     """
-    lines = [f"{problem.name}: {found.seconds:.9g} s ({found.method}, {found.status})"]
+    lines = [f"{problem.name}: {found.seconds:.9g} s ({found.method}, {found.ending})"]
+    if found.status in _CUT_SHORT:
+        lines.append(f"{_CUT_SHORT[found.status]}: this is the best verified motion until then")
     if found.trajectory is None or found.verdict is None:
         return lines[0]
+    if bound is not None:
+        lines.append(_proved(bound))
     passed = ", ".join(f"{time:.6g}" for time in found.trajectory.passage_times)
     lines.append(f"waypoints passed at {passed} s")
     lines.append("verified: keeps every limit; used most:")
@@ -136,7 +187,15 @@ def as_text(problem: Problem, found: FreeForm) -> str:
     return "\n".join([*lines, *found.notes])
 
 
-def as_json(problem: Problem, found: FreeForm) -> dict[str, object]:
+def _proved(bound: FreeFormBound) -> str:
+    """How fast any motion could be, in one line."""
+    if not bound.seconds > 0.0:
+        return f"no bound was proved ({bound.ending})"
+    line = f"proved: no such motion takes less than {bound.seconds:.9g} s, gap {bound.gap or 0.0:.2g}"
+    return line if bound.status is BoundStatus.PROVED else f"{line} ({bound.ending})"
+
+
+def as_json(problem: Problem, found: FreeForm, bound: FreeFormBound | None = None) -> dict[str, object]:
     """The same as plain data, with every peak; joints and segments count from 1, as in the text.
 
     Parameters
@@ -145,6 +204,8 @@ def as_json(problem: Problem, found: FreeForm) -> dict[str, object]:
         The task.
     found : FreeForm
         Its motion, judged.
+    bound : FreeFormBound, optional
+        What is proved of every motion under the same conditions.
 
     Returns
     -------
@@ -157,7 +218,8 @@ def as_json(problem: Problem, found: FreeForm) -> dict[str, object]:
         "seconds": found.seconds,
         "passage_times": passed,
         "method": found.method,
-        "status": found.status,
+        "status": found.status.value,
+        "reason": found.reason,
         "notes": list(found.notes),
         "peaks": [
             {
@@ -174,4 +236,6 @@ def as_json(problem: Problem, found: FreeForm) -> dict[str, object]:
             for peak in (() if found.verdict is None else found.verdict.peaks)
         ],
         "runtime": found.runtime,
+        "bound": None if bound is None or not bound.seconds > 0.0 else bound.seconds,
+        "gap": None if bound is None or not bound.seconds > 0.0 else bound.gap,
     }

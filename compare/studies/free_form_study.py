@@ -184,7 +184,7 @@ def answered(
         stop_and_go=REFERENCES["ruckig_stop_and_go"](problem).seconds,
         bound=bound.seconds,
         feasible=verdict.feasible,
-        status=found.status,
+        status=found.ending,
         method=found.method,
         runtime=runtime,
         cpu=cpu,

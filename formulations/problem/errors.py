@@ -18,6 +18,10 @@ class NoFeasibleMotion(RuntimeError):  # noqa: N818  # the answer, in a word
     """No motion was found that keeps the position limits and the conditions asked for."""
 
 
+class NotFoundInTime(NoFeasibleMotion):
+    """The time was over before a motion was found that keeps the conditions."""
+
+
 class OutOfReach(InputError):  # noqa: N818  # a refusal, not a failure
     """No joint positions within the limits reach a pose.
 

@@ -11,6 +11,8 @@ from collections.abc import Callable
 
 import numpy as np
 
+from formulations.deadlines import Deadline
+from formulations.deadlines.deadline import Stop
 from formulations.families import FAMILIES
 from formulations.motion.verdict import check
 from formulations.optima.family.optimum import local_optimum
@@ -43,6 +45,7 @@ class Alternation:
         *,
         least: float = 0.0,
         record: bool = False,
+        stop: Stop | None = None,
         progress: Callable[[float, int], None] | None = None,
     ) -> None:
         """Begin with one motion.
@@ -59,6 +62,8 @@ class Alternation:
             A bound that is known already: no attempt is made at less.
         record : bool
             Whether the proofs are kept for a certificate.
+        stop : callable, optional
+            Asked again and again whether to end now.
         progress : callable, optional
             Is called with the bound so far [s] and the number of boxes.
 
@@ -68,7 +73,7 @@ class Alternation:
             If the motion of these durations does not pass the check.
         """
         self.problem, self.begin, self.record, self.progress = problem, begin, record, progress
-        self.least = least
+        self.least, self.interrupt = least, Deadline(None, stop)
         self.boxes, self.restarts = 0, 0
         self.best: Proof | None = None
         self.upper, self.durations = np.inf, durations
@@ -131,6 +136,8 @@ class Alternation:
             if improved:
                 self.restarts += 1
                 continue
+            if self.interrupt.over:
+                return BoundStatus.INTERRUPTED, ""
             if not proof.stuck:
                 return BoundStatus.TIME_LIMIT, ""
             if proof.search.impossible:
@@ -151,7 +158,7 @@ class Alternation:
         slice_, looked, cost = 32, time.perf_counter(), _FIRST_LOOK
         while not (proof.proved or proof.stuck):
             before, clock = proof.boxes, time.perf_counter()
-            if clock >= self.deadline:
+            if clock >= self.deadline or self.interrupt.over:
                 break
             proof.run(slice_)
             took = max(time.perf_counter() - clock, 1e-6)
@@ -172,7 +179,7 @@ class Alternation:
         """Whether the NLP finds a better motion from the durations of an undecided box."""
         before, paused = self.upper, time.perf_counter()
         self._adopt(guess)
-        local = local_optimum(self.problem, guess)
+        local = local_optimum(self.problem, guess, deadline=self.interrupt)
         if np.isfinite(local.seconds):
             self._adopt(local.durations)
         self.deadline += time.perf_counter() - paused  # the time limit is for the proof alone

@@ -22,6 +22,8 @@ from typing import Any
 
 import numpy as np
 
+from formulations.deadlines import Deadline
+from formulations.deadlines.deadline import Stop
 from formulations.families import FAMILIES
 from formulations.motion.verdict import TOLERANCE
 from formulations.optima.family.optimum import FamilyOptimum, family_optimum
@@ -118,6 +120,7 @@ def family_bound(
     family: str | None = None,
     gap: float = 1e-7,
     time_limit: float = 60.0,
+    stop: Stop | None = None,
     optimum: FamilyOptimum | None = None,
     record: bool = False,
     progress: Callable[[float, int], None] | None = None,
@@ -137,6 +140,8 @@ def family_bound(
     time_limit : float [s]
         For the proof, apart from the NLP and from compiling. When it ends, the best bound proved so far
         is returned.
+    stop : callable, optional
+        Asked again and again whether to end now.
     optimum : FamilyOptimum, optional
         Motion to start from; by default the NLP is solved.
     record : bool
@@ -159,8 +164,7 @@ def family_bound(
     started = time.perf_counter()
     if not (gap > 0.0 and np.isfinite(gap)):
         raise InputError(f"gap: {gap!r} is not a positive number")
-    if not time_limit >= 0.0:
-        raise InputError(f"time_limit: {time_limit!r} s is not a time")
+    Deadline(time_limit)  # refuses what is no time
     chosen = FAMILIES[family or problem.family]
     chosen.require(problem)
     problem = replace(problem, family=chosen.name)
@@ -188,7 +192,7 @@ def family_bound(
         upper = np.inf if optimum is None else optimum.seconds
         return answer(simple, known, upper, BoundStatus.NOT_APPLICABLE, reason)
     try:
-        found = (optimum or family_optimum(problem)).durations
+        found = (optimum or family_optimum(problem, stop=stop)).durations
     except NoFeasibleMotion as failure:
         return answer(simple, None, np.inf, BoundStatus.NOT_APPLICABLE, str(failure))
     if chosen.name not in PROVERS:
@@ -203,7 +207,9 @@ def family_bound(
             seconds, found, upper, BoundStatus.UNDECIDED, _EVERY_MOTION, certificate=certificate
         )
     prover = PROVERS[chosen.name]
-    alternation = Alternation(problem, prover, found, least=simple, record=record, progress=progress)
+    alternation = Alternation(
+        problem, prover, found, least=simple, record=record, stop=stop, progress=progress
+    )
     status, reason = alternation.run(gap, time_limit)
     proof, certificate = alternation.best, None
     if record:

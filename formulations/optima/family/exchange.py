@@ -12,6 +12,7 @@ from enum import StrEnum
 
 import numpy as np
 
+from formulations.deadlines import NEVER, Deadline
 from formulations.families import Family
 from formulations.optima.family.program import NO_RADIUS, PosedProgram, touches
 from formulations.problem.arrays import Array
@@ -31,6 +32,7 @@ class StartStatus(StrEnum):
     NOT_CONVERGED = "not converged"  # the number of exchanges is used up
     NOT_FINITE = "not finite"  # the start or the solution leaves the range of floats
     STEP_VANISHED = "step vanished"  # the trust region has shrunk to nothing
+    STOPPED = "stopped at the deadline"
     STILL = "nothing moves"
 
 
@@ -62,8 +64,8 @@ class Start:
 class ConstraintExchange:
     """The exchange method for one problem and family; it keeps the compiled programs between starts."""
 
-    def __init__(self, problem: Problem, family: Family) -> None:
-        self.problem, self.family = problem, family
+    def __init__(self, problem: Problem, family: Family, deadline: Deadline = NEVER) -> None:
+        self.problem, self.family, self.deadline = problem, family, deadline
         self._programs: dict[tuple[int, ...], PosedProgram] = {}
         # joints whose position limits are posed: few joints come near theirs, and these constraints
         # cost the most
@@ -98,7 +100,7 @@ class ConstraintExchange:
         radius, follow = NO_RADIUS, False
         status, reason = StartStatus.NOT_CONVERGED, ""
         for exchange in range(1, _EXCHANGES + 1):
-            solved, outcome = self._program(centre).solve(centre, radius, follow)
+            solved, outcome = self._program(centre).solve(centre, radius, follow, self.deadline)
             if not np.isfinite(solved).all():
                 return Start(centre, shortest, StartStatus.NOT_FINITE, exchange, outcome)
             step = float(np.abs(np.log(solved / centre)).max())
@@ -117,6 +119,9 @@ class ConstraintExchange:
                 radius = min(2.0 * radius, NO_RADIUS)
             elif not settled:
                 radius, follow = 0.25 * min(radius, step), True
+            if self.deadline.over:
+                status, reason = StartStatus.STOPPED, outcome
+                break
             if settled:
                 solver_converged = outcome == "Solve_Succeeded"
                 status = StartStatus.OK if solver_converged else StartStatus.ACCEPTED

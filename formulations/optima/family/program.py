@@ -19,6 +19,8 @@ from typing import Any
 import casadi
 import numpy as np
 
+from formulations.deadlines import NEVER, Deadline
+from formulations.deadlines.ipopt import StoppableIpopt
 from formulations.families import Family
 from formulations.problem.arrays import Array
 from formulations.problem.problem import Problem
@@ -109,7 +111,7 @@ class PosedProgram:
         if family.pattern(near):
             # for a B-spline, exact second derivatives cost more than the iterations they save
             options["ipopt.hessian_approximation"] = "limited-memory"
-        self.solver = casadi.nlpsol("family", "ipopt", nlp, options)
+        self.solver = StoppableIpopt("family", nlp, options)
         self.floor = float(np.log(SHORTEST * scales.sum()))
 
     def _pose(self, j: int, k: int, order: int, length: casadi.SX, c: list[casadi.SX]) -> None:
@@ -166,7 +168,9 @@ class PosedProgram:
                 self.upper.append(float("inf"))
                 self.posed.append((j, k, 3, -2 if at_start else -1))
 
-    def solve(self, centre: Array, radius: float, follow: bool) -> tuple[Array, str]:
+    def solve(
+        self, centre: Array, radius: float, follow: bool, deadline: Deadline = NEVER
+    ) -> tuple[Array, str]:
         """Solve the program within a trust region about an iterate.
 
         Parameters
@@ -177,6 +181,8 @@ class PosedProgram:
             Radius of the trust region in log T; ``NO_RADIUS`` for none.
         follow : bool
             Whether the posed places follow their extremes.
+        deadline : Deadline
+            IPOPT stops after the iteration in which it is over.
 
         Returns
         -------
@@ -193,7 +199,8 @@ class PosedProgram:
         # the trust region comes first: from far below the floor a duration rises by the radius only
         lower = np.minimum(np.maximum(y - radius, self.floor), upper)
         try:
-            answer = self.solver(
+            solved = self.solver.solve(
+                deadline,
                 x0=y,
                 p=self._extremes(spline, follow),
                 lbg=self.lower,
@@ -201,10 +208,12 @@ class PosedProgram:
                 lbx=lower,
                 ubx=upper,
             )
-            outcome = str(self.solver.stats()["return_status"])
         except (RuntimeError, np.linalg.LinAlgError) as error:  # CasADi's one exception; no roots
             return np.full_like(centre, np.nan), str(error).strip().splitlines()[-1]
-        return np.exp(np.asarray(answer["x"]).ravel()), outcome
+        if solved is None:
+            return centre, "stopped at the deadline"
+        answer, stats = solved
+        return np.exp(np.asarray(answer["x"]).ravel()), str(stats["return_status"])
 
     def _extremes(self, spline: Array, follow: bool) -> Array:
         """Where the constraints are posed: normalised time, and 1 if the place follows its extreme."""

@@ -1,8 +1,11 @@
 """The fastest motion through waypoints, of all with bounded velocity, acceleration and jerk.
 
 fastest           ``free_form``, which others call, and its answer
+ending            how the search ended
+stage             one step of the search
 mesh_refinement   the search: programs on finer and finer meshes, each motion judged by the check
 stop_and_go       the motion that is always there, in closed form
+faults            what a motion keeps badly: position limits, fixed times
 retiming          each segment's least time between waypoint states, by Ruckig
 sensitivity       what each limit costs, from the multipliers
 nlp/              the nonlinear program: ``nlp.equations`` has it in one page
@@ -10,8 +13,9 @@ nlp/              the nonlinear program: ``nlp.equations`` has it in one page
 
 from __future__ import annotations
 
+from formulations.optima.free_form.ending import SearchStatus
 from formulations.optima.free_form.fastest import FreeForm, free_form
-from formulations.optima.free_form.mesh_refinement import Stage
 from formulations.optima.free_form.sensitivity import Sensitivity
+from formulations.optima.free_form.stage import Stage
 
-__all__ = ["FreeForm", "Sensitivity", "Stage", "free_form"]
+__all__ = ["FreeForm", "SearchStatus", "Sensitivity", "Stage", "free_form"]

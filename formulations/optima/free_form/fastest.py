@@ -10,15 +10,19 @@ from typing import Literal
 import casadi
 import numpy as np
 
+from formulations.deadlines import Deadline
+from formulations.deadlines.deadline import Stop
 from formulations.motion.trajectory import Trajectory
 from formulations.motion.verdict import Verdict, check
-from formulations.optima.free_form.mesh_refinement import MeshRefinement, Stage, VerifiedMotion
+from formulations.optima.free_form.ending import SearchStatus
+from formulations.optima.free_form.mesh_refinement import MeshRefinement
 from formulations.optima.free_form.nlp.assembly import RAMP
 from formulations.optima.free_form.nlp.conditioned import ConditionedProblem
 from formulations.optima.free_form.sensitivity import Sensitivity
+from formulations.optima.free_form.stage import Stage, VerifiedMotion
 from formulations.problem.arrays import Array
 from formulations.problem.conditions import Conditions
-from formulations.problem.errors import InputError, NoFeasibleMotion
+from formulations.problem.errors import InputError, NoFeasibleMotion, NotFoundInTime
 from formulations.problem.problem import Problem
 from formulations.references.ruckig_ import ruckig_stop_and_go
 
@@ -43,8 +47,11 @@ class FreeForm:
         What the independent check says of it: it keeps all that was asked for.
     method : str
         Name of the stage that found it.
-    status : str
-        "ok" if the last local solve converged, else how the solver says it ended.
+    status : SearchStatus
+        "ok" if a local solve converged to this time, within the tolerance; "not converged"; "time limit"
+        or "interrupted" if the search was ended before it was done.
+    reason : str
+        Why the status is "not converged"; else empty.
     notes : tuple of str
         What a user should know about the answer.
     sensitivity : Sensitivity or None
@@ -62,7 +69,8 @@ class FreeForm:
     trajectory: Trajectory | None
     verdict: Verdict | None
     method: str
-    status: str
+    status: SearchStatus
+    reason: str
     notes: tuple[str, ...]
     sensitivity: Sensitivity | None
     stages: tuple[Stage, ...]
@@ -72,6 +80,11 @@ class FreeForm:
     def seconds(self) -> float:
         """Total time [s]."""
         return 0.0 if self.trajectory is None else self.trajectory.seconds
+
+    @property
+    def ending(self) -> str:
+        """The status and its reason in one line."""
+        return f"{self.status}: {self.reason}" if self.reason else str(self.status)
 
     def __repr__(self) -> str:
         return f"FreeForm({self.problem.name!r}: {self.seconds:.9g} s, {self.method}, {self.status})"
@@ -84,6 +97,8 @@ def free_form(
     mesh: int = 7,
     tolerance: float = 1e-3,
     solver: Solver = "ipopt",
+    time_limit: float | None = None,
+    stop: Stop | None = None,
     progress: Callable[[str, float], None] | None = None,
 ) -> FreeForm:
     """Find the fastest motion through the waypoints, of all with bounded velocity, acceleration and jerk.
@@ -119,6 +134,13 @@ def free_form(
         It is an aim and not a proof.
     solver : {"ipopt", "highs"}, default "ipopt"
         "highs" solves the programs by sequential linear programming, without IPOPT.
+    time_limit : float, optional [s]
+        The search ends after this time, and the best verified motion so far is the answer; its status is
+        then "time limit". IPOPT is stopped between two iterations, each of which takes about 10 ms per
+        thousand variables.
+    stop : callable, optional
+        Asked again and again whether to end now; the status is then "interrupted". Without it Ctrl-C
+        raises KeyboardInterrupt, between two iterations as well.
     progress : callable, optional
         Called after each stage as ``progress(name, seconds)``, with infinite seconds if the check
         refused its motion.
@@ -136,6 +158,9 @@ def free_form(
     NoFeasibleMotion
         If no motion was found that keeps the conditions. Without conditions this happens only where the
         problem's numbers are too far apart for double precision.
+    NotFoundInTime
+        A ``NoFeasibleMotion``: the time was over before a motion was found that keeps the conditions.
+        Without conditions there is always one, stop and go.
 
     See Also
     --------
@@ -175,6 +200,7 @@ def free_form(
     [[0.0], [0.4], [1.0]]
     """
     begun = time.perf_counter()
+    deadline = Deadline(time_limit, stop)
     asked = conditions or Conditions()
     asked.validate(problem)
     if not (_LEAST_ARCS <= mesh <= _MOST_ARCS):
@@ -190,14 +216,18 @@ def free_form(
     task = ConditionedProblem(problem, asked)
     if not task.n_segments:
         return _nothing_moves(problem, asked, begun)
-    search = MeshRefinement(task, solver, progress)
-    if task.timed:
-        notes += search.run_timed(mesh)
-    else:
-        search.run(mesh, tolerance)
+    search = MeshRefinement(task, solver, progress, deadline)
+    with np.errstate(all="ignore"):  # what overflows is not finite, and the check refuses it
+        if task.timed:
+            notes += search.run_timed(mesh)
+        else:
+            search.run(mesh, tolerance)
     best = search.best
+    status = search.status(tolerance)
+    if best is None and search.ended:
+        raise NotFoundInTime(f"{status}: no motion was found yet that keeps {_named(asked)}")
     if best is None:
-        raise NoFeasibleMotion(_why_not(problem, asked, search, mesh, solver))
+        raise NoFeasibleMotion(_why_not(problem, asked, search))
     if asked.none and best.verdict.seconds > 0.999 * search.stages[0].seconds:
         best = _or_ruckig(problem, best)
     if task.group(1):
@@ -212,7 +242,8 @@ def free_form(
         best.trajectory,
         best.verdict,
         best.name,
-        search.status,
+        status,
+        _reason(status, search),
         tuple(notes),
         search.sensitivity,
         tuple(search.stages),
@@ -228,7 +259,8 @@ def _nothing_moves(problem: Problem, asked: Conditions, begun: float) -> FreeFor
         None,
         None,
         "nothing moves",
-        "ok",
+        SearchStatus.OK,
+        "",
         (),
         None,
         (),
@@ -246,28 +278,33 @@ def _or_ruckig(problem: Problem, best: VerifiedMotion) -> VerifiedMotion:
     return replace(best, name=name, trajectory=outcome.trajectory, verdict=verdict)
 
 
-def _why_not(
-    problem: Problem, asked: Conditions, search: MeshRefinement, mesh: int, solver: Solver
-) -> str:
-    """One line that names the conditions and, where times are fixed, what is possible without them."""
+def _reason(status: SearchStatus, search: MeshRefinement) -> str:
+    if status is SearchStatus.NOT_CONVERGED:
+        return search.reason or "the local solve converged to a slower motion"
+    return ""
+
+
+def _named(asked: Conditions) -> str:
+    """The conditions that were asked for, by their keys."""
+    named = [key for key in ("passage", "total", "stops", "segment_limits") if getattr(asked, key)]
+    named += [key for key in ("start_velocity", "end_velocity") if getattr(asked, key) is not None]
+    return f"conditions.{', conditions.'.join(named)}"
+
+
+def _why_not(problem: Problem, asked: Conditions, search: MeshRefinement) -> str:
+    """One line that names the conditions and, where times are fixed, the nearest times that are possible."""
     last = next((stage.status for stage in reversed(search.stages) if stage.status), "")
     if asked.none:
         return (
             f"no motion passes the check, as the numbers are too far apart for double precision: {last}"
         )
-    named = [key for key in ("passage", "total", "stops", "segment_limits") if getattr(asked, key)]
-    named += [key for key in ("start_velocity", "end_velocity") if getattr(asked, key) is not None]
-    line = f"no motion found that keeps conditions.{', conditions.'.join(named)}"
-    if asked.times(problem):
-        freed = replace(asked, passage={}, total=None)
-        try:
-            fastest = free_form(problem, conditions=freed, mesh=mesh, solver=solver)
-        except NoFeasibleMotion as none:
-            return f"{line}; nor without fixed times: {none}"
-        if fastest.trajectory is not None:
-            passed = [
-                f"waypoint {w} at {fastest.trajectory.passage_times[w]:.9g} s, {time:.9g} s asked for"
-                for w, time in sorted(asked.times(problem).items())
-            ]
-            return f"{line}; the fastest one found passes {'; '.join(passed)}"
+    line = f"no motion found that keeps {_named(asked)}"
+    near = search.nearest
+    if near is not None and search.missed > 0.0:
+        found = dict(enumerate([0.0, *np.cumsum(near.times)]))
+        passed = [
+            f"waypoint {w} at {found[search.task.waypoint_of[w]]:.9g} s, {time:.9g} s asked for"
+            for w, time in sorted(asked.times(problem).items())
+        ]
+        return f"{line}; the nearest one found passes {'; '.join(passed)}"
     return f"{line}; the last one tried: {last}"

@@ -11,12 +11,15 @@ from __future__ import annotations
 
 import time
 from collections.abc import Callable
-from dataclasses import dataclass, replace
+from dataclasses import replace
+from functools import partial
 
 import numpy as np
 
-from formulations.motion.trajectory import Trajectory
-from formulations.motion.verdict import Verdict, check
+from formulations.deadlines import NEVER, Deadline
+from formulations.motion.verdict import check
+from formulations.optima.free_form.ending import SearchEnded, SearchStatus
+from formulations.optima.free_form.faults import missed, outside
 from formulations.optima.free_form.nlp import ipopt, slp
 from formulations.optima.free_form.nlp.arcs import ArcMotion
 from formulations.optima.free_form.nlp.assembly import assemble
@@ -24,42 +27,14 @@ from formulations.optima.free_form.nlp.conditioned import ConditionedProblem
 from formulations.optima.free_form.nlp.program import FreeFormNLP, NLPSolution
 from formulations.optima.free_form.retiming import Refusal, retime
 from formulations.optima.free_form.sensitivity import Sensitivity, read_sensitivity
+from formulations.optima.free_form.stage import Stage, VerifiedMotion
 from formulations.optima.free_form.stop_and_go import stop_and_go_motion
 
 ROUNDS = 4  # of meshes, each with half as many arcs again as the one before
 _GUARDS = 6  # solutions on one mesh that may leave the position limits, each in further places
 _STRETCHES = 10  # attempts, the last with a margin of 1e-5
+_MISSED = 1e-6  # of the longest fixed time: more is not met
 _LOOSE, _TIGHT = 1e-6, 1e-9
-
-
-@dataclass(frozen=True)
-class Stage:
-    """One step of the search.
-
-    Attributes
-    ----------
-    name : str
-    seconds : float [s]
-        Time of its motion, infinite if the check refused it.
-    status : str
-        Why the check refused it, or how the solver ended.
-    runtime : float [s]
-    """
-
-    name: str
-    seconds: float
-    status: str
-    runtime: float
-
-
-@dataclass(frozen=True)
-class VerifiedMotion:
-    """A motion that has passed the check, with the name of its stage."""
-
-    name: str
-    motion: ArcMotion
-    trajectory: Trajectory
-    verdict: Verdict
 
 
 class MeshRefinement:
@@ -70,12 +45,16 @@ class MeshRefinement:
     best : VerifiedMotion or None
     stages : list of Stage
     sensitivity : Sensitivity or None
-    status : str
-        "ok", or how the solver ended on the last free arcs.
+    reason : str
+        How the solver ended on the last free arcs.
     """
 
     def __init__(
-        self, task: ConditionedProblem, solver: str, progress: Callable[[str, float], None] | None
+        self,
+        task: ConditionedProblem,
+        solver: str,
+        progress: Callable[[str, float], None] | None,
+        deadline: Deadline = NEVER,
     ) -> None:
         """Begin a search.
 
@@ -86,17 +65,44 @@ class MeshRefinement:
             "ipopt" or "highs".
         progress : callable or None
             Called as ``progress(stage, seconds)``.
+        deadline : Deadline
+            No stage is begun after it, except the first one, which needs no solver.
         """
-        self.task, self.solver, self.progress = task, solver, progress
-        self.solve = ipopt.solve if solver == "ipopt" else slp.solve
+        self.deadline, self.ended = deadline, False
+        self.task, self.progress = task, progress
+        self._use(solver)
         self.best: VerifiedMotion | None = None
         self.stages: list[Stage] = []
         self.sensitivity: Sensitivity | None = None
         self.solved: tuple[FreeFormNLP, NLPSolution, float] | None = None
         self.guarded: frozenset[tuple[int, int]] = frozenset()
         self.second = 1.0
-        self.status = "ok"
+        self.converged, self.reason = np.inf, ""
+        self.nearest: ArcMotion | None = None  # to the fixed times, and by how much it misses them
+        self.missed = 0.0
         self.clock = time.perf_counter()
+
+    def _use(self, solver: str) -> None:
+        solve = ipopt.solve if solver == "ipopt" else slp.solve
+        self.solver, self.solve = solver, partial(solve, deadline=self.deadline)
+
+    def status(self, tolerance: float) -> SearchStatus:
+        """Say how the search ended, of the best motion.
+
+        Parameters
+        ----------
+        tolerance : float
+            A solve whose motion takes longer by this share converged to the same time.
+
+        Returns
+        -------
+        SearchStatus
+        """
+        if self.ended:
+            return SearchStatus.INTERRUPTED if self.deadline.interrupted else SearchStatus.TIME_LIMIT
+        if self.best is not None and self.converged <= self.best.verdict.seconds * (1.0 + tolerance):
+            return SearchStatus.OK
+        return SearchStatus.NOT_CONVERGED
 
     def offer(self, name: str, motion: ArcMotion | Refusal, status: str = "") -> VerifiedMotion | None:
         """Judge a motion, and keep it if it is the best.
@@ -149,12 +155,27 @@ class MeshRefinement:
         tolerance : float
             Relative, of the total time; one mesh only from 1e-3 on.
         """
-        start = stop_and_go_motion(self.task)
-        self.offer("stop and go", start)
+        try:
+            self._run(mesh, tolerance)
+        except SearchEnded:
+            self.ended = True
+        if self.solved is not None and self.best is not None:
+            program, solution, seconds = self.solved
+            if seconds <= self.best.verdict.seconds * (1.0 + 1e-3):
+                self.sensitivity = read_sensitivity(program, solution)
+
+    def _run(self, mesh: int, tolerance: float) -> None:
+        begin = start = stop_and_go_motion(self.task)
+        found = self.offer("stop and go", start)
         self.second = float(start.times.mean())
         if not self.task.group(2) and not self.task.group(3):
+            self.converged = np.inf if found is None else found.verdict.seconds
             return
-        if self.task.ends.any():  # the closed form starts and ends at rest
+        if self.task.times:
+            start = self._nearest(start, mesh)
+            if self.missed > _MISSED:
+                return
+        elif self.task.ends.any():  # the closed form starts and ends at rest
             self._states("stop and go, by Ruckig", start)
         arcs, before = mesh, np.inf
         for _ in range(ROUNDS):
@@ -163,8 +184,10 @@ class MeshRefinement:
             if tolerance >= 1e-3 or before - now <= 0.1 * tolerance * now:
                 break
             arcs, before = (3 * arcs) // 2, now
-        if self.solved is None and self.solve is ipopt.solve and self.task.stretchable:
-            self.solve = slp.solve
+        if self.task.times and not np.isfinite(self.converged):
+            self._round(begin, mesh, tolerance)
+        if self.solved is None and self.solver == "ipopt" and self.task.stretchable:
+            self._use("highs")
             self._round(start, mesh, tolerance)
         self._finish(tolerance)
 
@@ -181,31 +204,54 @@ class MeshRefinement:
         list of str
             Notes, where the motion is not the smoothest.
         """
+        try:
+            return self._run_timed(mesh)
+        except SearchEnded:
+            self.ended = True
+            return ["not the smoothest motion: the search for it was not finished"]
+
+    def _run_timed(self, mesh: int) -> list[str]:
         start = stop_and_go_motion(self.task)
         self.second = float(start.times.mean())
         if not self.task.group(2) and not self.task.group(3):
-            self.offer("steady", start)
+            found = self.offer("steady", start)
+            self.converged = np.inf if found is None else found.verdict.seconds
             return []
-        if self.solve is ipopt.solve:
+        if self.solver == "ipopt":
             self._solved("smoothest", start, 3 * mesh, free=False, tolerance=_TIGHT, smooth=True)
             if self.best is not None:
                 return []
         self._fastest_slowed(mesh)
-        if self.best is None:
-            self.run(mesh, 1e-3)
+        if self.best is None and self.nearest is None:
+            self._run(mesh, 1e-3)
         return ["not the smoothest motion: no solution of that program was found"]
+
+    def _nearest(self, start: ArcMotion, arcs: int) -> ArcMotion:
+        """Look for a motion that meets the fixed times: the one that misses them least."""
+        name, n = "nearest to the given times", arcs + arcs // 2
+        near = self._solved(name, start, n, free=False, tolerance=1e-6, elastic=True)
+        if missed(self.task, near) > 1e-6 or self.best is None:
+            finer = self._solved(f"{name}, arcs", near, arcs, free=True, tolerance=_TIGHT, elastic=True)
+            if missed(self.task, finer) < missed(self.task, near):
+                near = finer
+        self.missed, self.nearest = missed(self.task, near), near
+        return near
 
     def _fastest_slowed(self, mesh: int) -> None:
         """Slow the fastest motion down to the given time; it may violate other conditions."""
         task = self.task
         asked = replace(task.conditions, total=None, passage={})
         free = ConditionedProblem(task.problem, asked)
-        inner = MeshRefinement(free, self.solver, None)
+        inner = MeshRefinement(free, self.solver, None, self.deadline)
         inner.run(mesh, 1e-3)
         if inner.best is not None:
             motion = inner.best.motion
             factor = task.times[task.n_segments] / float(motion.times.sum())
-            self.offer("fastest, slowed down", motion.stretched(factor))
+            if factor < 1.0 and len(task.times) == 1:
+                self.nearest, self.missed = motion, missed(task, motion)
+            found = self.offer("fastest, slowed down", motion.stretched(factor))
+            if found is not None and inner.status(1e-3) is SearchStatus.OK:
+                self.converged = found.verdict.seconds
 
     def _round(self, start: ArcMotion, arcs: int, tolerance: float) -> None:
         """One round: even steps, waypoint states, free arcs."""
@@ -218,11 +264,12 @@ class MeshRefinement:
         for first, n in [*starts, (coarse, arcs + arcs // 2)]:
             self._solved("arcs", first, n, free=True, tolerance=digits)
             best = np.inf if self.best is None else self.best.verdict.seconds
-            if self.status == "ok" and self.stages[-1].seconds <= best * (1.0 + 1e-4):
+            if not self.reason and self.stages[-1].seconds <= best * (1.0 + 1e-4):
                 break
 
     def _states(self, name: str, motion: ArcMotion) -> ArcMotion | Refusal:
         """Retime a motion between its waypoint states."""
+        self._go_on()
         states = retime(self.task, motion)
         if self.offer(name, states) is None and not self.task.times:
             other = retime(self.task, motion, by_speed=True)
@@ -239,8 +286,10 @@ class MeshRefinement:
         free: bool,
         tolerance: float,
         smooth: bool = False,
+        elastic: bool = False,
     ) -> ArcMotion:
         """Solve on one mesh; where the motion leaves the position limits, pose rows (6) and solve again."""
+        self._go_on()
         for _ in range(_GUARDS):
             program = FreeFormNLP(
                 self.task,
@@ -249,45 +298,48 @@ class MeshRefinement:
                 second=self.second,
                 guarded=self.guarded,
                 smooth=smooth,
+                elastic=elastic,
             )
             solution = self.solve(
                 program, program.point(start), tolerance=tolerance, near=1e-4 if free else None
             )
             motion = program.motion(solution.x)
-            outside = self._outside(motion) - self.guarded
-            if not outside:
+            leaving = outside(self.task, motion) - self.guarded
+            if not leaving or self.deadline.over:
                 break
-            self.guarded |= outside
+            self.guarded |= leaving
             start = motion
         found = self.offer(name, motion, solution.status)
-        if free or smooth:
-            self.status = "ok" if solution.converged else solution.status
-        if free and found is not None:
+        if (free or smooth) and not elastic:
+            self._note(solution, found)
+        if free and found is not None and not elastic:
             self._remember(program, solution, found.verdict.seconds)
         return motion
 
+    def _go_on(self) -> None:
+        """End the search when its time is over."""
+        if self.deadline.over:
+            raise SearchEnded
+
+    def _note(self, solution: NLPSolution, found: VerifiedMotion | None) -> None:
+        """Note how a solve of the final program ended, and whether its motion stands."""
+        self.reason = "" if solution.converged else solution.status
+        if solution.converged and found is not None:
+            self.converged = min(self.converged, found.verdict.seconds)
+
     def _remember(self, program: FreeFormNLP, solution: NLPSolution, seconds: float) -> None:
+        if self.deadline.over and not solution.converged:
+            return  # multipliers of a point on the way mean nothing
         if self.solved is None or seconds < self.solved[2]:
             self.solved = (program, solution, seconds)
 
-    def _outside(self, motion: ArcMotion) -> frozenset[tuple[int, int]]:
-        """Pairs (joint, segment) where a motion leaves the position limits."""
-        whole = assemble(self.task, motion)
-        bounds = self.task.position_bounds
-        middles = whole.breaks[:-1] + 0.5 * whole.durations
-        passages = np.unique(whole.passage_times)
-        segment = np.searchsorted(passages, middles) - 1
-        extremes, slack = whole.extremes(0), self.task.problem.position_slack
-        low, high = bounds[segment, :, 0] - slack, bounds[segment, :, 1] + slack
-        out = (extremes.low < low) | (extremes.high > high)
-        return frozenset((int(j), int(segment[i])) for i, j in np.argwhere(out))
-
     def _finish(self, tolerance: float) -> None:
-        """Solve the best arcs to full accuracy, retime them, and read the multipliers."""
+        """Solve the best arcs to full accuracy, and retime them."""
         if self.solved is None:
             return
         program, solution, _ = self.solved
         if tolerance < 1e-4:
+            self._go_on()
             solution = self.solve(program, solution.x, tolerance=_TIGHT, near=1e-7, warm=solution)
             motion = program.motion(solution.x)
             found = self.offer("arcs, to the last digits", motion, solution.status)
@@ -296,5 +348,3 @@ class MeshRefinement:
         program, solution, _ = self.solved
         if not self.task.times:
             self._states("waypoint states of the arcs", program.motion(solution.x))
-        if self.best is not None and self.solved[2] <= self.best.verdict.seconds * (1.0 + 1e-3):
-            self.sensitivity = read_sensitivity(program, solution)

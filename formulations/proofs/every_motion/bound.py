@@ -9,14 +9,20 @@ from typing import Any
 
 import numpy as np
 
+from formulations.deadlines import Deadline
+from formulations.deadlines.deadline import Stop
 from formulations.motion.trajectory import Trajectory
 from formulations.motion.verdict import TOLERANCE
 from formulations.problem.arrays import Array
+from formulations.problem.conditions import Conditions
 from formulations.problem.errors import InputError
 from formulations.problem.problem import Problem
 from formulations.proofs.certificate import certificate_of
+from formulations.proofs.every_motion.conditioned import added_up, parts_of
 from formulations.proofs.every_motion.horizons import HorizonSearch
 from formulations.proofs.status import BoundStatus
+
+_BELOW = 1.0 - 1e-12  # more than the rounding of a sum of segments
 
 __all__ = ["BoundStatus", "FreeFormBound", "free_form_bound"]
 
@@ -39,7 +45,7 @@ class FreeFormBound:
         Time of the fastest motion known, given or found; None if there is none.
     status : BoundStatus
         How the search ended: "proved" (the gap asked for is reached), "tight as it gets" (narrower
-        boxes would prove no more), "time limit", "simple bounds only" or "solver failed".
+        boxes would prove no more), "time limit", "interrupted", "simple bounds only" or "solver failed".
     runtime : float [s]
         Time of the search on this machine.
     rows : int
@@ -98,9 +104,11 @@ class FreeFormBound:
 def free_form_bound(
     problem: Problem,
     *,
+    conditions: Conditions | None = None,
     gap: float = 1e-3,
     upper: float | None = None,
     time_limit: float = 60.0,
+    stop: Stop | None = None,
     record: bool = False,
     progress: Callable[[float, float | None], None] | None = None,
 ) -> FreeFormBound:
@@ -124,6 +132,9 @@ def free_form_bound(
     ----------
     problem : Problem
         Waypoints and limits.
+    conditions : Conditions, optional
+        The bound is then that of the motions that keep them: see ``conditioned``. Of motions that do not
+        start and end at rest only displacement at top speed is proved. There is no certificate.
     gap : float, default 1e-3
         Relative gap between bound and fastest known motion at which the search ends.
     upper : float, optional [s]
@@ -131,6 +142,8 @@ def free_form_bound(
         it a motion is searched for.
     time_limit : float, default 60 [s]
         The search ends after this time; the first linear program is solved in any case.
+    stop : callable, optional
+        Asked between two linear programs whether to end now.
     record : bool, default False
         Whether to keep the proof in ``certificate``. Where narrow boxes were needed, the certificate
         may prove slightly less.
@@ -184,13 +197,15 @@ def free_form_bound(
         raise InputError(f"gap: {gap!r} is not a positive number")
     if upper is not None and not (upper >= 0.0 and np.isfinite(upper)):
         raise InputError(f"upper: {upper!r} s is not a time")
-    if not time_limit >= 0.0:
-        raise InputError(f"time_limit: {time_limit!r} s is not a time")
+    deadline = Deadline(time_limit, stop)
+    if conditions is not None and not conditions.none:
+        return _conditioned(problem, conditions, gap, upper, deadline, started, progress)
     search = HorizonSearch(problem, upper, progress)
-    ending = search.run(gap, started + time_limit)
+    ending = search.run(gap, deadline)
     certificate = None
     if record and problem.moving_joints:
-        seconds, horizon, events = search.certify(started + 2.0 * time_limit)
+        left = max(2.0 * time_limit - (time.perf_counter() - started), 0.0)
+        seconds, horizon, events = search.certify(Deadline(left, stop))
         certificate = certificate_of(problem, seconds, events, horizon=horizon)
     method = max(search.bounds, key=lambda key: search.bounds[key])
     return FreeFormBound(
@@ -207,4 +222,51 @@ def free_form_bound(
         search.savings,
         certificate,
         ending.reason,
+    )
+
+
+def _conditioned(
+    problem: Problem,
+    conditions: Conditions,
+    gap: float,
+    upper: float | None,
+    deadline: Deadline,
+    started: float,
+    progress: Callable[[float, float | None], None] | None,
+) -> FreeFormBound:
+    """Bound each part between two stops by itself, and add the bounds up."""
+    conditions.validate(problem)
+    parts = parts_of(problem, conditions)
+    times, status, reasons = conditions.times(problem), BoundStatus.PROVED, []
+    bounds = [float(part.least.sum()) * _BELOW for part in parts]
+    rows = 0
+    for index, part in enumerate(parts):
+        if not part.rests:
+            status = BoundStatus.SIMPLE
+            reasons.append("with a velocity at an end, displacement at top speed is all that is proved")
+            continue
+        whole = upper if len(parts) == 1 else None
+        left = max((deadline.left - 1e-3) / (len(parts) - index), 0.0)
+        found = free_form_bound(part.problem, gap=gap, upper=whole, time_limit=left, stop=deadline.stop)
+        bounds[index], rows = max(bounds[index], found.seconds), max(rows, found.rows)
+        if found.status is not BoundStatus.PROVED and status is BoundStatus.PROVED:
+            status = found.status
+            reasons += [found.reason] if found.reason else []
+        if progress is not None:
+            progress(added_up(parts, bounds, times), upper)
+    seconds = added_up(parts, bounds, times)
+    if upper is not None and upper <= seconds * (1.0 + gap):
+        status, reasons = BoundStatus.PROVED, []
+    elif status is BoundStatus.PROVED:
+        status = BoundStatus.TIGHT  # of the parts; the conditions cost more than is proved
+    return FreeFormBound(
+        problem,
+        seconds,
+        "parts",
+        {"parts": seconds},
+        upper,
+        status,
+        time.perf_counter() - started,
+        rows,
+        reason="; ".join(dict.fromkeys(reasons)),
     )

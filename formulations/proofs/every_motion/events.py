@@ -20,11 +20,11 @@ segment's number.
 
 from __future__ import annotations
 
-import time
 from typing import Any
 
 import numpy as np
 
+from formulations.deadlines import Deadline
 from formulations.problem.arrays import Array
 from formulations.problem.problem import Problem
 from formulations.proofs.every_motion.relaxation.boxes import Boxes
@@ -41,7 +41,7 @@ _MARGIN = 1e-10  # of the bound, for the checker's own boxes and rows
 
 
 def bound_with_events(
-    problem: Problem, horizon: float, target: float, cuts: Cuts, typical: Array, deadline: float
+    problem: Problem, horizon: float, target: float, cuts: Cuts, typical: Array, deadline: Deadline
 ) -> tuple[float, list[Event]]:
     """Prove a bound and record the proof.
 
@@ -56,8 +56,7 @@ def bound_with_events(
         To begin with.
     typical : Array, shape (n_segments,) [s]
         Units of the durations.
-    deadline : float
-        Of ``time.perf_counter`` [s].
+    deadline : Deadline
 
     Returns
     -------
@@ -79,7 +78,7 @@ def bound_with_events(
         bound = min(solution.bound, horizon) * (1.0 - _MARGIN)
         if bound > best[0]:
             best = bound, [*narrowing, ["F", _rows_of(program, solution.multipliers)]]
-        if best[0] >= target or time.perf_counter() > deadline:
+        if best[0] >= target or deadline.over:
             break
 
         def note(column: int, side: int, found: LPSolution, program: LinearProgram = program) -> None:

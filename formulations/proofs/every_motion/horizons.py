@@ -8,12 +8,12 @@ then narrower and the relaxation is tighter.
 
 from __future__ import annotations
 
-import time
 from collections.abc import Callable
 from typing import Any, NamedTuple
 
 import numpy as np
 
+from formulations.deadlines import Deadline
 from formulations.motion.trajectory import Trajectory
 from formulations.motion.verdict import check
 from formulations.problem.arrays import Array
@@ -117,15 +117,14 @@ class HorizonSearch:
         slowest = float(self.stop_and_go.sum())
         return slowest if self.upper is None else min(self.upper, slowest)
 
-    def run(self, gap: float, deadline: float) -> Ending:
+    def run(self, gap: float, deadline: Deadline) -> Ending:
         """Search until the gap is reached, the time is over, or nothing proves more.
 
         Parameters
         ----------
         gap : float
             Relative gap to the known motion.
-        deadline : float
-            Of ``time.perf_counter`` [s].
+        deadline : Deadline
 
         Returns
         -------
@@ -143,7 +142,7 @@ class HorizonSearch:
         with np.errstate(over="ignore", divide="ignore", invalid="ignore"):
             return self._approach(gap, deadline)
 
-    def _approach(self, gap: float, deadline: float) -> Ending:
+    def _approach(self, gap: float, deadline: Deadline) -> Ending:
         """Try horizon after horizon: a longer one when none of its motions is left, else a shorter one."""
         ahead, boxes = np.inf, None
         while True:
@@ -164,7 +163,7 @@ class HorizonSearch:
                 return Ending(BoundStatus.TIGHT)
 
     def _within(
-        self, horizon: float, boxes: Boxes | None, gap: float, deadline: float
+        self, horizon: float, boxes: Boxes | None, gap: float, deadline: Deadline
     ) -> tuple[Ending | None, Boxes]:
         """Bound all motions of at most ``horizon`` seconds, in narrower and narrower boxes."""
         relaxed = RelaxedProblem.of(self.problem, horizon)
@@ -181,11 +180,9 @@ class HorizonSearch:
                 break
             self._keep(program, solution)
             if solution.status == LPStatus.TIME_LIMIT:
-                return Ending(BoundStatus.TIME_LIMIT), boxes
+                return _out_of_time(deadline), boxes
             if solution.status != LPStatus.OPTIMAL:
-                return Ending(
-                    BoundStatus.SOLVER_FAILED, f"HiGHS ended with {solution.reason.lower()}"
-                ), boxes
+                return Ending(BoundStatus.SOLVER_FAILED, _why(solution)), boxes
             typical = solution.x[frame.T] * typical
             self.typical[relaxed.segments], self.cuts = typical, program.cuts
             self._look_for_motion(typical, program.cuts, gap, deadline)
@@ -193,8 +190,8 @@ class HorizonSearch:
                 return Ending(BoundStatus.PROVED), boxes
             if self._tight(gap):
                 return Ending(BoundStatus.TIGHT), boxes
-            if time.perf_counter() > deadline:
-                return Ending(BoundStatus.TIME_LIMIT), boxes
+            if deadline.over:
+                return _out_of_time(deadline), boxes
             if self.seconds >= horizon:
                 break
             if horizon > self.seconds * (1.0 + _AHEAD):
@@ -222,13 +219,12 @@ class HorizonSearch:
         empty = bool((durations[:, 0] > durations[:, 1]).any())
         return Boxes(durations, np.clip(boxes.accelerations, -most, most), empty)
 
-    def certify(self, deadline: float) -> tuple[float, float, list[list[Any]]]:
+    def certify(self, deadline: Deadline) -> tuple[float, float, list[list[Any]]]:
         """Prove a bound near the best one again, so that a checker can follow it.
 
         Parameters
         ----------
-        deadline : float
-            Of ``time.perf_counter`` [s].
+        deadline : Deadline
 
         Returns
         -------
@@ -274,7 +270,7 @@ class HorizonSearch:
             )
         self._improve(bound)
 
-    def _look_for_motion(self, durations: Array, cuts: Cuts, gap: float, deadline: float) -> None:
+    def _look_for_motion(self, durations: Array, cuts: Cuts, gap: float, deadline: Deadline) -> None:
         """Try for a motion with the relaxation's durations, slightly stretched; then with durations nearby."""
         for local in (False, True):
             if local:
@@ -288,7 +284,7 @@ class HorizonSearch:
                     self.looking = False
                     return
 
-    def _try(self, durations: Array, cuts: Cuts, deadline: float) -> bool:
+    def _try(self, durations: Array, cuts: Cuts, deadline: Deadline) -> bool:
         """Whether a longer stretch is pointless; a motion that passes the check and is fastest is kept."""
         total = float(durations.sum())
         if self.upper is not None and total >= self.upper:
@@ -308,6 +304,16 @@ class HorizonSearch:
     def _tight(self, gap: float) -> bool:
         """Whether a motion, perhaps outside the position limits, shows that the relaxation proves no more."""
         return self.attained <= self.seconds * (1.0 + gap)
+
+
+def _why(solution: LPSolution) -> str:
+    if solution.status == LPStatus.REFUSED:
+        return "the numbers are too far apart for HiGHS"
+    return f"HiGHS ended with {solution.reason.lower()}"
+
+
+def _out_of_time(deadline: Deadline) -> Ending:
+    return Ending(BoundStatus.INTERRUPTED if deadline.interrupted else BoundStatus.TIME_LIMIT)
 
 
 def _tangents(durations: Array) -> Cuts:

@@ -35,7 +35,7 @@ def test_a_stop_and_a_passage_are_kept_and_the_file_holds_the_motion(
         (("--pass", "2"), "--pass: '2' is not of the form K=T"),
         (("--pass", "2=soon"), "--pass: '2=soon' is not of the form K=T"),
         (("--stop", "9"), "waypoint 9"),
-        (("--total", "10"), "conditions.total; the fastest one found passes waypoint 3 at 14.76"),
+        (("--total", "10"), "conditions.total; the nearest one found passes waypoint 3 at 14.76"),
         (("--total", "nan"), "nan"),
         (("--start-velocity", "1,2"), "--start-velocity: expected 6 finite numbers"),
         (("--start-velocity", "-1,2"), "--start-velocity: expected 6 finite numbers, got '-1,2'"),

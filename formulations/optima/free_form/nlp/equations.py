@@ -33,6 +33,8 @@ import numpy as np
 from formulations.optima.free_form.nlp.scaled import Place, ScaledProblem
 from formulations.problem.arrays import Array
 
+SHARE = 1e-3  # of the time, in the objective of elastic programs
+
 Rule: TypeAlias = Callable[[ScaledProblem], tuple[Array | float, Array | float]]  # low and high
 
 
@@ -56,6 +58,9 @@ class Shape:
     smooth : bool
         Whether the objective is the integral of the squares of jerk over limit (of order 2:
         acceleration over limit), and not the time.
+    elastic : bool
+        Whether fixed times may be missed, and the objective is the sum of what they are missed by, plus
+        ``SHARE`` of the time.
     """
 
     segments: int
@@ -65,6 +70,7 @@ class Shape:
     timed: tuple[int, ...] = ()
     guarded: tuple[Place, ...] = ()
     smooth: bool = False
+    elastic: bool = False
 
 
 @dataclass(frozen=True)
@@ -159,9 +165,18 @@ class Equations:
         for order, n, arcs in zip((2, 3), shape.joints, shape.arcs, strict=True):
             if n:
                 roughness += self._group(order, n, arcs, times)
+        missed = 0.0
         for waypoint in shape.timed:
-            self._row("time", 0, casadi.sum1(times[:waypoint]), _passing(waypoint))
+            passed = casadi.sum1(times[:waypoint])
+            if shape.elastic:
+                early, late = casadi.SX.sym("early"), casadi.SX.sym("late")
+                self._variable("missed", 0, casadi.vertcat(early, late), _nonnegative)
+                passed += early - late
+                missed += early + late
+            self._row("time", 0, passed, _passing(waypoint))
         self.objective = roughness if shape.smooth else cost
+        if shape.elastic:
+            self.objective = missed + SHARE * cost
 
     def _variable(self, name: str, order: int, symbols: Any, rule: Rule) -> None:
         column = casadi.vec(symbols)

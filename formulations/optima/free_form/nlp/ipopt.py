@@ -13,9 +13,10 @@ from __future__ import annotations
 from functools import lru_cache
 from typing import Any
 
-import casadi
 import numpy as np
 
+from formulations.deadlines import NEVER, Deadline
+from formulations.deadlines.ipopt import StoppableIpopt
 from formulations.optima.free_form.nlp.equations import Shape, equations_of
 from formulations.optima.free_form.nlp.program import FreeFormNLP, NLPSolution
 from formulations.problem.arrays import Array
@@ -39,6 +40,7 @@ def solve(
     near: float | None = None,
     iterations: int = 300,
     warm: NLPSolution | None = None,
+    deadline: Deadline = NEVER,
 ) -> NLPSolution:
     """Solve a program from a starting point.
 
@@ -55,6 +57,8 @@ def solve(
         Greatest number of iterations.
     warm : NLPSolution, optional
         A solution whose multipliers to start from.
+    deadline : Deadline
+        IPOPT stops after the iteration in which it is over.
 
     Returns
     -------
@@ -76,7 +80,8 @@ def solve(
         start = {"lam_g0": warm.row_multipliers, "lam_x0": warm.bound_multipliers}
     solver = _solver(program.shape, tuple(sorted(options.items())))
     try:
-        found = solver(
+        solved = solver.solve(
+            deadline,
             x0=x,
             p=program.parameters,
             lbx=program.low,
@@ -87,7 +92,9 @@ def solve(
         )
     except RuntimeError as error:  # CasADi refuses the numbers
         return _none(program, x, str(error).strip().splitlines()[-1])
-    stats = solver.stats()
+    if solved is None:
+        return _none(program, x, "stopped at the deadline")
+    found, stats = solved
     status = str(stats["return_status"]).replace("_", " ").lower()
     point = np.asarray(found["x"]).ravel()
     if not np.isfinite(point).all():
@@ -108,5 +115,7 @@ def _none(program: FreeFormNLP, x: Array, status: str) -> NLPSolution:
 
 
 @lru_cache(maxsize=64)
-def _solver(shape: Shape, options: tuple[tuple[str, Any], ...]) -> Any:
-    return casadi.nlpsol("free_form", "ipopt", equations_of(shape).nlp, _OPTIONS | dict(options))
+def _solver(shape: Shape, options: tuple[tuple[str, Any], ...]) -> StoppableIpopt:
+    equations = equations_of(shape)
+    blocks = [block.symbols for block in equations.rows]
+    return StoppableIpopt("free_form", equations.nlp, _OPTIONS | dict(options), blocks)

@@ -59,6 +59,7 @@ class FreeFormNLP:
         second: float,
         guarded: frozenset[tuple[int, int]] = frozenset(),
         smooth: bool = False,
+        elastic: bool = False,
     ) -> None:
         """Pose the program.
 
@@ -75,6 +76,8 @@ class FreeFormNLP:
             Where the position is kept inside its limits by rows (6).
         smooth : bool
             Minimise the roughness in place of the time.
+        elastic : bool
+            Minimise what the fixed times are missed by.
         """
         self.task, self.free = task, free
         self.numbers = numbers = ScaledProblem(task, arcs, second)
@@ -87,6 +90,7 @@ class FreeFormNLP:
             tuple(sorted(task.times)),
             tuple(places),
             smooth,
+            elastic,
         )
         self.equations = equations_of(self.shape)
         ends = (np.zeros(0), np.zeros(0))
@@ -125,6 +129,11 @@ class FreeFormNLP:
             for derivative in range(order - 1):
                 values = np.stack([node[derivative] for node in nodes], axis=-1)
                 parts.append((values / numbers.unit(order, derivative)).ravel())
+        if self.shape.elastic:
+            passed = np.cumsum(motion.times)
+            for waypoint in self.shape.timed:
+                late = passed[waypoint - 1] / second - numbers.fixed_time(waypoint)
+                parts.append(np.array([-late, late]))  # the one below 0 is set to 0
         return np.clip(np.concatenate(parts), self.low, self.high)
 
     def motion(self, x: Array) -> ArcMotion:

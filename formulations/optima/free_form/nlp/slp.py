@@ -21,6 +21,7 @@ import numpy as np
 from scipy import sparse
 from scipy.optimize import linprog
 
+from formulations.deadlines import NEVER, Deadline
 from formulations.optima.free_form.nlp.equations import Shape, equations_of
 from formulations.optima.free_form.nlp.program import FreeFormNLP, NLPSolution
 from formulations.problem.arrays import Array, Truths
@@ -28,6 +29,7 @@ from formulations.problem.arrays import Array, Truths
 # half side of the trust region, in the program's units
 _RADIUS, _SMALLEST, _LARGEST = 0.3, 1e-6, 10.0
 _ROUNDING = 1e-9
+_LONGEST = 1e6  # s
 
 
 @dataclass(frozen=True)
@@ -57,6 +59,7 @@ def solve(
     near: float | None = None,
     iterations: int = 100,
     warm: NLPSolution | None = None,
+    deadline: Deadline = NEVER,
 ) -> NLPSolution:
     """Solve a program from a starting point.
 
@@ -74,6 +77,8 @@ def solve(
         Greatest number of steps.
     warm : NLPSolution, optional
         If given, as ``near``.
+    deadline : Deadline
+        No step is begun after it, and HiGHS gets what is left of the time.
 
     Returns
     -------
@@ -102,7 +107,10 @@ def solve(
     last: _Step | None = None
     status, converged, iteration = "maximum iterations exceeded", False, 0
     for iteration in range(1, iterations + 1):  # noqa: B007
-        step = _linear_step(program, model, radius, weight, nonlinear)
+        if deadline.over:
+            status = "stopped at the deadline"
+            break
+        step = _linear_step(program, model, radius, weight, nonlinear, deadline)
         if isinstance(step, str):
             status = f"linear program: {step}"
             break
@@ -122,7 +130,7 @@ def solve(
         if merit > before - 0.5 * predicted:
             # second-order correction: the same slopes, with the rows at the end of the step
             corrected_model = model._replace(rows=trial_rows - model.slopes @ step.x)
-            bent = _linear_step(program, corrected_model, radius, weight, nonlinear)
+            bent = _linear_step(program, corrected_model, radius, weight, nonlinear, deadline)
             if not isinstance(bent, str):
                 corrected = judged(model, model.x + bent.x, weight)
                 if corrected[2] < merit:
@@ -148,7 +156,12 @@ def _missed(program: FreeFormNLP, rows: Array) -> float:
 
 
 def _linear_step(
-    program: FreeFormNLP, model: _Model, radius: float, weight: float, nonlinear: Truths
+    program: FreeFormNLP,
+    model: _Model,
+    radius: float,
+    weight: float,
+    nonlinear: Truths,
+    deadline: Deadline,
 ) -> _Step | str:
     """The best step within the trust region, or why there is none."""
     x, rows, slopes, cost = model
@@ -179,8 +192,11 @@ def _linear_step(
         b_eq=np.where(is_priced, low, 0.0)[equal],
         bounds=np.concatenate([sides, np.tile([0.0, np.inf], (2 * m, 1))]),
         method="highs",
+        options={"time_limit": max(min(deadline.left, _LONGEST), 1e-3)},
     )
     if found.x is None:
+        if "Model error" in str(found.message):  # HiGHS refuses coefficients beyond 1e15
+            return "the numbers are too far apart for HiGHS"
         return str(found.message).splitlines()[0]
     multipliers = np.zeros(len(rows))
     multipliers[equal] = -found.eqlin.marginals

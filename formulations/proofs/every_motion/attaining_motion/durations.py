@@ -7,8 +7,7 @@ region, each with valid rows in place of linearised ones.
 
 from __future__ import annotations
 
-import time
-
+from formulations.deadlines import Deadline
 from formulations.problem.arrays import Array
 from formulations.problem.problem import Problem
 from formulations.proofs.every_motion.relaxation.boxes import Boxes
@@ -21,7 +20,7 @@ _WIDTHS = tuple(0.5**power for power in range(11))
 _ROUNDS, _TOLERANCE = 30, 1e-7
 
 
-def descend(problem: Problem, durations: Array, cuts: Cuts, deadline: float) -> tuple[Array, Cuts]:
+def descend(problem: Problem, durations: Array, cuts: Cuts, deadline: Deadline) -> tuple[Array, Cuts]:
     """Descend to durations close to a local optimum.
 
     Parameters
@@ -31,8 +30,7 @@ def descend(problem: Problem, durations: Array, cuts: Cuts, deadline: float) -> 
         Of the segments that move, to begin with.
     cuts : Cuts
         To begin with.
-    deadline : float
-        Of ``time.perf_counter`` [s].
+    deadline : Deadline
 
     Returns
     -------
@@ -41,7 +39,7 @@ def descend(problem: Problem, durations: Array, cuts: Cuts, deadline: float) -> 
         Good ones for these durations.
     """
     for width in _WIDTHS:
-        if time.perf_counter() > deadline:
+        if deadline.over:
             break
         relaxed = RelaxedProblem.of(problem, float(durations.sum()) * (1.0 + width))
         boxes = Boxes.around(relaxed, durations / (1.0 + width), durations * (1.0 + width))

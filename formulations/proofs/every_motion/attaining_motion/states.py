@@ -6,12 +6,12 @@ width. Limits are lowered by ``_MARGIN``, to cover the solver's tolerance.
 
 from __future__ import annotations
 
-import math
 from dataclasses import dataclass, replace
 
 import numpy as np
 from scipy.interpolate import PchipInterpolator
 
+from formulations.deadlines import NEVER, Deadline
 from formulations.problem.arrays import Array
 from formulations.problem.problem import Problem
 from formulations.proofs.every_motion.relaxation.boxes import Boxes
@@ -41,7 +41,7 @@ class WaypointStates:
 
 
 def find_states(
-    problem: Problem, durations: Array, cuts: Cuts, deadline: float = math.inf
+    problem: Problem, durations: Array, cuts: Cuts, deadline: Deadline = NEVER
 ) -> WaypointStates | None:
     """Find waypoint states for given durations.
 
@@ -52,8 +52,7 @@ def find_states(
         Of the segments that move.
     cuts : Cuts
         To begin with.
-    deadline : float
-        Of ``time.perf_counter`` [s].
+    deadline : Deadline
 
     Returns
     -------

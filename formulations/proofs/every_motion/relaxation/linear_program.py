@@ -10,14 +10,13 @@ Computation 10, pp. 119-142 (HiGHS).
 
 from __future__ import annotations
 
-import math
-import time
 from dataclasses import dataclass
 from enum import StrEnum
 
 import highspy
 import numpy as np
 
+from formulations.deadlines import NEVER, Deadline
 from formulations.problem.arrays import Array
 from formulations.proofs.every_motion.relaxation.cuts import Cuts
 from formulations.proofs.every_motion.relaxation.rows import Frame, Rows
@@ -187,7 +186,7 @@ class LinearProgram:
         self.cuts = self.cuts[~far[self.n_fixed :]]
 
     def solve(
-        self, cost: Array, *, rounds: int, tolerance: float, deadline: float = math.inf
+        self, cost: Array, *, rounds: int, tolerance: float, deadline: Deadline = NEVER
     ) -> LPSolution:
         """Solve, cut the point off, and solve again.
 
@@ -198,8 +197,7 @@ class LinearProgram:
             Greatest number of solves.
         tolerance : float
             The point has converged if it violates no row by more.
-        deadline : float
-            Of ``time.perf_counter`` [s].
+        deadline : Deadline
 
         Returns
         -------
@@ -219,14 +217,14 @@ class LinearProgram:
             self.add(cuts)
         return self._solution(cost, converged)
 
-    def _run(self, deadline: float) -> LPStatus:
+    def _run(self, deadline: Deadline) -> LPStatus:
         """Solve from the last basis; where that gives no answer, from scratch and in other ways."""
         for attempt in _ATTEMPTS:
             if self._refused:
                 break
             for option, value in attempt.items():
                 self.highs.setOptionValue(option, value)
-            left = max(deadline - time.perf_counter(), 1e-3)
+            left = max(deadline.left, 1e-3)
             self.highs.setOptionValue("time_limit", self.highs.getRunTime() + left)
             self.highs.run()
             if attempt:

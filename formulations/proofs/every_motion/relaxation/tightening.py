@@ -12,11 +12,11 @@ Journal of Global Optimization 67, pp. 731-757.
 
 from __future__ import annotations
 
-import time
 from collections.abc import Callable
 
 import numpy as np
 
+from formulations.deadlines import Deadline
 from formulations.proofs.every_motion.relaxation.boxes import Boxes
 from formulations.proofs.every_motion.relaxation.cuts import PRODUCTS
 from formulations.proofs.every_motion.relaxation.linear_program import LinearProgram, LPSolution
@@ -28,7 +28,7 @@ _ROUNDS, _TOLERANCE = 5, 1e-6  # of cuts for one bound, which need not be the be
 def tighten(
     program: LinearProgram,
     solution: LPSolution,
-    deadline: float,
+    deadline: Deadline,
     note: Callable[[int, int, LPSolution], None] | None = None,
 ) -> Boxes:
     """Narrow the boxes of a program without losing a motion, as far as the time goes.
@@ -40,8 +40,7 @@ def tighten(
     program : LinearProgram
     solution : LPSolution
         Of the total time.
-    deadline : float
-        Of ``time.perf_counter`` [s].
+    deadline : Deadline
     note : callable, optional
         Called as ``note(column, side, solution)`` for every program that narrows a box.
 
@@ -57,7 +56,7 @@ def tighten(
         wanted.append((int(frame.a[k, j]), accelerations[k, j], scale))
     for column, interval, unit in wanted:
         for side, sign in ((0, 1.0), (1, -1.0)):
-            if time.perf_counter() > deadline:
+            if deadline.over:
                 return Boxes(durations, accelerations)
             cost = np.zeros(frame.size)
             cost[column] = sign

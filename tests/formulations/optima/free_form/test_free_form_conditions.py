@@ -133,3 +133,40 @@ def test_equal_waypoints_with_different_times_wait() -> None:
     found = motion(free_form(problem, conditions=asked))
     assert found.passage_times[1:3] == pytest.approx([3.0, 5.0], rel=1e-12)
     assert check(problem, found, conditions=asked).feasible
+
+
+def ten(seed: int) -> Problem:
+    points = np.cumsum(np.random.default_rng(seed).uniform(-0.6, 0.6, (10, 7)), axis=0)
+    return Problem.of(points, Limits.of(2.0, 8.0, 60.0, dof=7))
+
+
+@pytest.mark.parametrize(("seed", "share"), [(2, 0.985), (3, 0.97), (0, 0.995)])
+def test_a_passage_may_be_earlier_than_that_of_the_fastest_motion(seed: int, share: float) -> None:
+    problem = ten(seed)
+    fastest = motion(free_form(problem))
+    asked = Conditions(passage={5: share * fastest.passage_times[5]})
+    found = free_form(problem, conditions=asked)
+    assert check(problem, motion(found), conditions=asked).feasible
+    assert found.status == "ok"
+    assert fastest.seconds * (1.0 - 1e-6) <= found.seconds < 1.05 * fastest.seconds
+
+
+def test_a_refusal_names_a_time_that_is_then_possible() -> None:
+    problem = ten(1)
+    with pytest.raises(NoFeasibleMotion, match="the nearest one found passes waypoint 5 at") as refusal:
+        free_form(problem, conditions=Conditions(passage={5: 1.0}))
+    least = float(str(refusal.value).split("passes waypoint 5 at ")[1].split(" s")[0])
+    # an oracle: the first five segments, with a stop at their end, are a motion that takes longer
+    prefix = Problem.of(problem.waypoints[:6], problem.limits)
+    assert least < free_form(prefix).seconds
+    asked = Conditions(passage={5: least * 1.001})
+    assert check(problem, motion(free_form(problem, conditions=asked)), conditions=asked).feasible
+
+
+@pytest.mark.parametrize("more", [1.0 + 1e-6, 1.0 + 1e-4, 1.01])
+def test_the_status_is_that_of_the_answer(more: float) -> None:
+    least = free_form(SR4C, tolerance=1e-6).seconds
+    found = free_form(SR4C, conditions=Conditions(total=least * more))
+    assert check(SR4C, motion(found), conditions=Conditions(total=least * more)).feasible
+    assert "infeasible" not in found.ending
+    assert (found.status == "ok") or found.notes
