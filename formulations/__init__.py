@@ -4,9 +4,10 @@ from __future__ import annotations
 
 from formulations.climb import Ladder
 from formulations.families import FAMILIES
-from formulations.motion.files.motion_file import read_motion, write_motion
+from formulations.motion.files.motion_file import read_motion, read_points, write_motion
 from formulations.motion.trajectory import Trajectory
 from formulations.motion.verdict import Verdict, check
+from formulations.optima.at_rate.export import Export, export_motion
 from formulations.optima.family.optimum import (
     FamilyOptimum,
     each_joint_alone,
@@ -28,6 +29,7 @@ __all__ = [
     "REFERENCES",
     "RUNGS",
     "Conditions",
+    "Export",
     "FamilyBound",
     "FamilyOptimum",
     "FreeForm",
@@ -43,6 +45,7 @@ __all__ = [
     "Verdict",
     "check",
     "each_joint_alone",
+    "export_motion",
     "family_bound",
     "family_optimum",
     "free_form",
@@ -52,5 +55,6 @@ __all__ = [
     "longest_segment",
     "parse",
     "read_motion",
+    "read_points",
     "write_motion",
 ]
