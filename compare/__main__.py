@@ -20,6 +20,7 @@ from compare.commands import BAD_INPUT, COMMANDS, DONE, FAILED, INTERRUPTED
 _FIRST_STEPS = (
     (
         "You have waypoints and limits, and want the fastest safe motion:",
+        ("timebound new", "asks, and writes FILE.toml"),
         ("timebound plan FILE.toml --export motion.csv --rate 125", "a file for the controller"),
         ("timebound solve FILE.toml", "every bound, and what limits the motion"),
     ),

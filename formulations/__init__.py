@@ -15,12 +15,14 @@ from formulations.optima.family.optimum import (
 )
 from formulations.optima.family.papers_rule import longest_segment
 from formulations.optima.free_form import FreeForm, Sensitivity, free_form
+from formulations.planning import PlannedMotion, plan
 from formulations.problem.conditions import Conditions
 from formulations.problem.errors import InputError, NoFeasibleMotion, UnsupportedProblem
 from formulations.problem.problem import Limits, Problem
 from formulations.problem.problem_file import CASES, load, parse
 from formulations.proofs.every_motion.bound import FreeFormBound, free_form_bound
 from formulations.proofs.family import FamilyBound, family_bound
+from formulations.robot import Robot, robot_of, waypoints_of
 from formulations.rungs import REFERENCES, RUNGS, ladder
 
 __all__ = [
@@ -38,7 +40,9 @@ __all__ = [
     "Ladder",
     "Limits",
     "NoFeasibleMotion",
+    "PlannedMotion",
     "Problem",
+    "Robot",
     "Sensitivity",
     "Trajectory",
     "UnsupportedProblem",
@@ -54,7 +58,10 @@ __all__ = [
     "load",
     "longest_segment",
     "parse",
+    "plan",
     "read_motion",
     "read_points",
+    "robot_of",
+    "waypoints_of",
     "write_motion",
 ]

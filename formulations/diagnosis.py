@@ -14,6 +14,7 @@ import numpy as np
 from formulations.motion.verdict import QUANTITIES
 from formulations.optima.free_form import FreeForm, free_form
 from formulations.problem.arrays import Array
+from formulations.problem.joint_words import joint_label
 from formulations.problem.problem import Limits, Problem
 
 _LEAST = 1e-3  # of the time: shorter holds are not shown
@@ -76,12 +77,15 @@ class Diagnosis:
         Largest first.
     unexplained : float [s]
         Time minus all shares; small but not 0, since the motion is a local optimum only nearly.
+    names : tuple of str
+        Names of the joints; empty where they have none.
     """
 
     seconds: float
     holds: tuple[Hold, ...]
     savings: tuple[Saving, ...]
     unexplained: float
+    names: tuple[str, ...] = ()
 
     def lines(self) -> list[str]:
         """Write one sentence per hold; the first of each limit also says what raising it saves."""
@@ -89,7 +93,7 @@ class Diagnosis:
         text = []
         for hold in self.holds:
             line = (
-                f"joint {hold.joint + 1}'s {hold.quantity} holds segment {hold.segment + 1} for "
+                f"{joint_label(self.names, hold.joint)}'s {hold.quantity} holds segment {hold.segment + 1} for "
                 f"{hold.seconds:.3g} of {self.seconds:.4g} s"
             )
             saving = saved.pop((hold.joint, hold.quantity), None)
@@ -97,6 +101,23 @@ class Diagnosis:
                 line += f"; {100.0 * saving.more:.3g} % more of it would save {saving.seconds:.3g} s"
             text.append(line)
         return text
+
+    def to_json(self) -> dict[str, object]:
+        """The same as plain data. Joints and segments count from 1, as in ``lines``."""
+        return {
+            "seconds": self.seconds,
+            "holds": [self._row(hold) for hold in self.holds],
+            "savings": [self._row(saving) for saving in self.savings],
+            "unexplained": self.unexplained,
+        }
+
+    def _row(self, entry: Hold | Saving) -> dict[str, object]:
+        row: dict[str, object] = dict(vars(entry))
+        row["joint"] = entry.joint + 1
+        row["name"] = self.names[entry.joint] if self.names else None
+        if isinstance(entry, Hold):
+            row["segment"] = entry.segment + 1
+        return row
 
 
 def diagnose(problem: Problem, found: FreeForm, *, more: float = 0.1, top: int = 4) -> Diagnosis:
@@ -154,7 +175,8 @@ def diagnose(problem: Problem, found: FreeForm, *, more: float = 0.1, top: int =
             faster = free_form(_raised(problem, int(o), int(j), 1.0 + more))
             savings.append(Saving(int(j), QUANTITIES[int(o) + 1], more, found.seconds - faster.seconds))
     savings.sort(key=lambda saving: -saving.seconds)
-    return Diagnosis(found.seconds, tuple(holds), tuple(savings), found.seconds - float(held.sum()))
+    left = found.seconds - float(held.sum())
+    return Diagnosis(found.seconds, tuple(holds), tuple(savings), left, problem.names)
 
 
 def _held(problem: Problem, found: FreeForm) -> Array:

@@ -8,8 +8,8 @@ from typing import Any
 from conftest import climbed
 
 from compare.benchmark.grade import Graded, Run, grade
-from compare.benchmark.rows import TIMING_COLUMNS, Row
-from compare.benchmark.store import Store
+from compare.benchmark.records.rows import TIMING_COLUMNS, Row
+from compare.benchmark.records.store import Store
 from formulations import FamilyOptimum, Problem, load
 
 TOLERANCE = 1e-9  # relative: of families without a proof, whose optimum is a local solver's

@@ -8,8 +8,8 @@ from dataclasses import dataclass
 import numpy as np
 
 from compare.benchmark.objective import CODINGS, Objective, search_box
-from compare.benchmark.provenance import machine, parameters_of, provenance_of
-from compare.benchmark.rows import (
+from compare.benchmark.records.provenance import machine, parameters_of, provenance_of
+from compare.benchmark.records.rows import (
     BoundProof,
     Row,
     RowStatus,

@@ -13,7 +13,7 @@ from dataclasses import dataclass
 from compare.audit.motion.printed_motion import PrintedMotion
 from compare.audit.paper import PAPERS, Paper, PrintedTimes, load_papers
 from compare.benchmark.ladders import LadderRecord
-from compare.benchmark.rows import Row
+from compare.benchmark.records.rows import Row
 from compare.benchmark.statistics import median, times_of
 from formulations import Problem
 from formulations.motion.verdict import TOLERANCE

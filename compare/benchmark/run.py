@@ -20,11 +20,11 @@ from compare.audit.paper import published_text
 from compare.benchmark.grade import Graded, Run, grade
 from compare.benchmark.known_times import KnownTime, table_of_known_times
 from compare.benchmark.ladders import LadderRecord, ladder_record
-from compare.benchmark.provenance import machine, provenance_of, versions_text
-from compare.benchmark.rejudge import judged_again
-from compare.benchmark.rows import BoundProof, Row, RunKey
+from compare.benchmark.records.provenance import machine, provenance_of, versions_text
+from compare.benchmark.records.rejudge import judged_again
+from compare.benchmark.records.rows import BoundProof, Row, RunKey
+from compare.benchmark.records.store import Store
 from compare.benchmark.statistics import bound_of
-from compare.benchmark.store import Store
 from compare.screen import bar
 from formulations import FAMILIES, Problem, ladder
 

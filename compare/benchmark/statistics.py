@@ -9,7 +9,7 @@ import numpy as np
 
 from compare.benchmark.grade import Trace
 from compare.benchmark.ladders import LadderRecord
-from compare.benchmark.rows import BoundProof, Row
+from compare.benchmark.records.rows import BoundProof, Row
 from formulations.problem.arrays import Array
 
 # a certified bound of the family is used where it lies within this factor of the optimum

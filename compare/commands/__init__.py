@@ -32,6 +32,11 @@ PAPERS, STUDIES = "Published results", "Studies"
 
 _ALL = (
     Command(
+        "new", "compare.commands.new:new", MOTIONS,
+        "Write a problem file: from a robot's files, from options, or from your answers.",
+        "timebound new --from-urdf arm.urdf --limits joint_limits.yaml --waypoints path.csv -o mine.toml",
+    ),
+    Command(
         "solve", "compare.commands.solve:solve", MOTIONS,
         "Find every bound of one problem, and what limits its fastest motion.",
         "timebound solve sr4c --json sr4c.json",

@@ -10,14 +10,15 @@ from cyclopts import Parameter
 from compare.benchmark import suite
 from compare.benchmark.known_times import key_of_paper
 from compare.benchmark.objective import CODINGS
+from compare.benchmark.records.store import Settings, Store
 from compare.benchmark.run import audits, climb, swarm, tabulate_known_times, warm_up, workers
-from compare.benchmark.store import Settings, Store
 from compare.commands import DONE
 from compare.commands.options import CORES, Cases, Codings, Jobs, Out, Swarms, positive
 from compare.files import output_folder
 from compare.report.page import render
-from compare.studies import bias, proofs, study
-from compare.studies.centred_functions import FUNCTIONS
+from compare.studies import proofs, study
+from compare.studies.drawn_to_zero import bias
+from compare.studies.drawn_to_zero.centred_functions import FUNCTIONS
 from formulations import CASES, InputError, load
 
 # random 3-5-3 problems, most segments, problems per size: what a proof costs, in the report

@@ -9,19 +9,23 @@ import numpy as np
 from cyclopts import Parameter
 
 from compare.commands import DONE
-from compare.commands.options import Export, Gap, Json, ProblemFile, Rate
+from compare.commands.options import Export, Gap, Json, Rate
+from compare.commands.problem_options import FileOrRobot, OwnRobotOptions, problem_of
 from compare.screen import show, stages
-from formulations import Conditions, FreeForm, InputError, NoFeasibleMotion, Problem, free_form, load
+from formulations import Conditions, FreeForm, InputError, NoFeasibleMotion, Problem, free_form
+from formulations.motion.verdict import QUANTITIES
 from formulations.optima.at_rate.export import check_export, export_motion
 from formulations.problem.arrays import Array
+from formulations.problem.joint_words import factors, shown_unit
 
 Velocities = Annotated[str | None, Parameter(metavar="V,V,..", allow_leading_hyphen=True)]
 
 
 def plan(
-    file: ProblemFile,
+    file: FileOrRobot = None,
     /,
     *,
+    own: OwnRobotOptions = None,
     stop: Annotated[list[int] | None, Parameter(metavar="K")] = None,
     passage: Annotated[list[str] | None, Parameter(name="--pass", metavar="K=T")] = None,
     total: Annotated[float | None, Parameter(metavar="T")] = None,
@@ -45,11 +49,11 @@ def plan(
     total
         Take T seconds, as smoothly as possible.
     start_velocity
-        Velocity at the start, one number per joint [rad/s].
+        Velocity at the start, one number per joint, in the unit of the file (deg/s where it has degrees).
     end_velocity
-        Velocity at the end, one number per joint [rad/s].
+        Velocity at the end, in the same way.
     """
-    problem = load(file)
+    problem = problem_of(file, own)
     conditions = Conditions(
         passage=_passages(passage or []),
         total=total,
@@ -94,7 +98,7 @@ def _passages(texts: list[str]) -> dict[int, float]:
 
 
 def _velocity(key: str, text: str | None, problem: Problem) -> Array | None:
-    """Velocities of the joints, (dof,) [rad/s]."""
+    """Velocities of the joints, (dof,) [rad/s], from numbers in the unit of the file."""
     if text is None:
         return None
     try:
@@ -103,7 +107,7 @@ def _velocity(key: str, text: str | None, problem: Problem) -> Array | None:
         raise InputError(f"{key}: {text!r} is not a list of numbers") from None
     if len(values) != problem.dof or not all(isfinite(value) for value in values):
         raise InputError(f"{key}: expected {problem.dof} finite numbers, got {text!r}")
-    return np.array(values)
+    return np.array(values) * factors(problem.units, problem.display_unit)
 
 
 def as_text(problem: Problem, found: FreeForm) -> str:
@@ -133,7 +137,7 @@ def as_text(problem: Problem, found: FreeForm) -> str:
 
 
 def as_json(problem: Problem, found: FreeForm) -> dict[str, object]:
-    """The same as plain data, with every peak.
+    """The same as plain data, with every peak; joints and segments count from 1, as in the text.
 
     Parameters
     ----------
@@ -156,7 +160,17 @@ def as_json(problem: Problem, found: FreeForm) -> dict[str, object]:
         "status": found.status,
         "notes": list(found.notes),
         "peaks": [
-            {key: value for key, value in vars(peak).items() if key != "stretch"}
+            {
+                "quantity": peak.quantity,
+                "joint": peak.joint + 1,
+                "name": peak.name or None,
+                "segment": peak.segment + 1,
+                "time": peak.time,
+                "value": peak.value,
+                "limit": peak.limit,
+                "unit": shown_unit(peak.unit, "rad", QUANTITIES.index(peak.quantity)),
+                "factor": peak.factor,
+            }
             for peak in (() if found.verdict is None else found.verdict.peaks)
         ],
         "runtime": found.runtime,

@@ -7,8 +7,8 @@ from typing import Annotated
 
 from cyclopts import Parameter
 
+from compare.benchmark.records.store import Store
 from compare.benchmark.run import workers
-from compare.benchmark.store import Store
 from compare.commands import DONE
 from compare.commands.options import Jobs
 from compare.report.page import render

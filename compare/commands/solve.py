@@ -3,15 +3,15 @@
 from __future__ import annotations
 
 import sys
-from dataclasses import asdict
 from typing import Annotated, Any
 
 from cyclopts import Parameter
 
 from compare.commands import BAD_INPUT, DONE, FAILED
-from compare.commands.options import Export, Gap, Json, ProblemFile, Rate, Seed, writable
+from compare.commands.options import Export, Gap, Json, Rate, Seed, writable
+from compare.commands.problem_options import FileOrRobot, OwnRobotOptions, problem_of
 from compare.screen import show, stages, table
-from formulations import RUNGS, InputError, Ladder, Problem, ladder, load
+from formulations import RUNGS, InputError, Ladder, Problem, ladder
 from formulations.diagnosis import diagnose
 from formulations.optima.at_rate.export import check_export, export_motion
 from formulations.proofs.certificate import write_certificate
@@ -21,9 +21,10 @@ _PROOF = {"lower": "proved", "upper": "verified", "reference": "discretised"}
 
 
 def solve(
-    file: ProblemFile,
+    file: FileOrRobot = None,
     /,
     *,
+    own: OwnRobotOptions = None,
     json: Json = None,
     certificate: Annotated[str | None, Parameter(metavar="FILE", validator=writable)] = None,
     motion_certificate: Annotated[str | None, Parameter(metavar="FILE", validator=writable)] = None,
@@ -44,7 +45,7 @@ def solve(
     motion_certificate
         Write the proof of free_form_lower, which holds for every motion.
     """
-    problem = load(file)
+    problem = problem_of(file, own)
     if export is not None:
         check_export(export, problem, rate)
     with stages(problem.name) as stage:
@@ -66,7 +67,7 @@ def solve(
     ]
     if held is not None and held.holds:
         text += ["\nwhat limits the fastest motion", *(f"  {line}" for line in held.lines()[:_LINES])]
-    diagnosis = None if held is None else asdict(held)
+    diagnosis = None if held is None else held.to_json()
     show("\n".join(text), {**answer.to_json(), "diagnosis": diagnosis}, json)
     say = sys.stderr if json == "-" else sys.stdout
     if reason := _unsolved(answer):

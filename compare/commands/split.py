@@ -11,16 +11,18 @@ from cyclopts import Parameter
 
 from compare.benchmark.objective import CODINGS
 from compare.commands import DONE
-from compare.commands.options import Budget, Codings, Json, ProblemFile, Seed, Swarm, positive, writable
+from compare.commands.options import Budget, Codings, Json, Seed, Swarm, positive, writable
+from compare.commands.problem_options import FileOrRobot, OwnRobotOptions, problem_of
 from compare.screen import show, stages
 from compare.studies.time_split import as_json, as_text, run_and_split, split_figure
-from formulations import InputError, load
+from formulations import InputError
 
 
 def split(
-    file: ProblemFile,
+    file: FileOrRobot = None,
     /,
     *,
+    own: OwnRobotOptions = None,
     swarm: Swarm = "pso",
     codings: Codings = None,
     seed: Seed = 0,
@@ -41,7 +43,7 @@ def split(
     figure
         Draw the shares (.svg, .png or .pdf).
     """
-    problem = load(file)
+    problem = problem_of(file, own)
     wanted = list(codings or CODINGS)
     with stages(problem.name) as stage:
         splits, reasons = run_and_split(

@@ -22,7 +22,7 @@ from compare.report.style import STYLE
 
 MEANINGS = {
     FAILED: "failed",
-    MISSING: "not made yet: python -m compare.papers makes it",
+    MISSING: "not made yet: timebound papers makes it",
     DIED: "its process died",
 }
 

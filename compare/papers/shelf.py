@@ -12,7 +12,7 @@ from dataclasses import asdict, dataclass
 from pathlib import Path
 from typing import Any
 
-from compare.benchmark.provenance import machine, versions_text
+from compare.benchmark.records.provenance import machine, versions_text
 from compare.files import write_json
 from compare.papers.item import Item
 

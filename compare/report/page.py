@@ -15,11 +15,11 @@ from compare.audit import chapter
 from compare.benchmark.known_times import key_of_paper
 from compare.benchmark.ladders import LadderRecord
 from compare.benchmark.objective import CODINGS
-from compare.benchmark.rejudge import judged_again
-from compare.benchmark.rows import Row, RowStatus
+from compare.benchmark.records.rejudge import judged_again
+from compare.benchmark.records.rows import Row, RowStatus
+from compare.benchmark.records.store import Settings, Store
 from compare.benchmark.run import each
 from compare.benchmark.statistics import Summary, best_claim, best_row, bound_of, summaries
-from compare.benchmark.store import Settings, Store
 from compare.files import write_text
 from compare.report.figures.case import draw_case
 from compare.report.papers_at_a_glance import papers_at_a_glance

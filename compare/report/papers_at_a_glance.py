@@ -9,7 +9,7 @@ from typing import Any
 from compare.audit.findings import IN_SHORT
 from compare.benchmark.known_times import KnownTime
 from compare.benchmark.ladders import LadderRecord
-from compare.benchmark.rows import BoundProof
+from compare.benchmark.records.rows import BoundProof
 from compare.benchmark.statistics import bound_of
 
 

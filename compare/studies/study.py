@@ -28,7 +28,7 @@ import matplotlib as mpl
 import matplotlib.pyplot as plt
 from matplotlib.figure import Figure
 
-from compare.benchmark.provenance import machine, problem_digest, versions_text
+from compare.benchmark.records.provenance import machine, problem_digest, versions_text
 from compare.benchmark.run import each
 from compare.files import write_json, write_text
 from compare.screen import bar

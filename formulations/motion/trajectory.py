@@ -15,6 +15,8 @@ from formulations.problem.errors import InputError
 
 MOST_SAMPLES = 5_000_000  # of a motion at a fixed rate
 
+_ROUNDING = 1e-9  # share of the whole time by which a time may lie outside
+
 
 @dataclass(frozen=True)
 class Trajectory:
@@ -99,8 +101,26 @@ class Trajectory:
         -------
         Array, shape (..., dof)
             Values [rad/s^order].
+
+        Raises
+        ------
+        InputError
+            For a time before the start or after the end by more than rounding, and a negative order.
         """
-        return np.asarray(self._piecewise(np.asarray(times, dtype=np.float64), nu=order))
+        if order < 0:
+            raise InputError(f"order: {order} is no order of a derivative; 0 is the position")
+        asked = np.asarray(times, dtype=np.float64)
+        slack = _ROUNDING * self.seconds
+        inside = (asked >= -slack) & (asked <= self.seconds + slack)  # false for NaN
+        if not inside.all():
+            time = float(asked[~inside].flat[0])
+            raise InputError(
+                f"times: {time:g} s is not within the motion, which takes 0 to {self.seconds:.6g} s"
+            )
+        return np.asarray(self._piecewise(np.clip(asked, 0.0, self.seconds), nu=order))
+
+    def __repr__(self) -> str:
+        return f"Trajectory({self.seconds:.6g} s: {self.dof} joints, {len(self.durations)} pieces)"
 
     def sample(self, rate: float) -> tuple[Array, Array]:
         """Sample position, velocity, acceleration and jerk at a fixed rate, the end included.

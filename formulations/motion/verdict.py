@@ -14,11 +14,11 @@ from formulations.motion.trajectory import Trajectory
 from formulations.problem.arrays import Array
 from formulations.problem.conditions import Conditions
 from formulations.problem.errors import InputError
+from formulations.problem.joint_words import factors, shown_unit
 from formulations.problem.problem import Problem
 
 TOLERANCE = 1e-9  # relative excess over a limit that still counts as keeping it
 QUANTITIES = ("position", "velocity", "acceleration", "jerk")
-UNITS = ("rad", "rad/s", "rad/s²", "rad/s³")
 
 
 @dataclass(frozen=True)
@@ -40,6 +40,10 @@ class Peak:
     stretch : float
         Factor on all durations that would just keep the limit; infinite for a position, as no stretch
         changes the path.
+    name : str
+        Name of the joint; empty where it has none.
+    unit, angle : str
+        Unit of the joint's position, "rad" or "m", and the one that angles are shown in, "rad" or "deg".
     """
 
     quantity: str
@@ -50,12 +54,16 @@ class Peak:
     limit: float
     factor: float
     stretch: float
+    name: str = ""
+    unit: str = "rad"
+    angle: str = "rad"
 
     def __str__(self) -> str:
-        unit = UNITS[QUANTITIES.index(self.quantity)]
+        unit = shown_unit(self.unit, self.angle, QUANTITIES.index(self.quantity))
+        scale = float(factors([self.unit], self.angle)[0])
         return (
-            f"{self.quantity} of joint {self.joint + 1} in segment {self.segment + 1} at "
-            f"{self.time:.4f} s: {self.value:.6g} {unit}, limit {self.limit:.6g} {unit}, "
+            f"{self.quantity} of joint {self.name or self.joint + 1} in segment {self.segment + 1} at "
+            f"{self.time:.4f} s: {self.value / scale:.6g} {unit}, limit {self.limit / scale:.6g} {unit}, "
             f"factor {self.factor:.6g}"
         )
 
@@ -142,7 +150,8 @@ def check(
     if trajectory.dof != problem.dof:
         raise InputError(f"trajectory: {trajectory.dof} joints, the problem has {problem.dof}")
     targets = problem.waypoints if through else problem.waypoints[[0, -1]]
-    known = len(trajectory.passage_times) == len(targets)
+    times = trajectory.passage_times
+    known = len(times) == len(targets) and bool(((times >= 0.0) & (times <= trajectory.seconds)).all())
     faults = [
         *_waypoint_faults(problem, trajectory, targets),
         *_smoothness_faults(problem, trajectory, asked, known),
@@ -179,7 +188,8 @@ def _waypoint_faults(problem: Problem, trajectory: Trajectory, targets: Array) -
         miss = np.abs(trajectory.at(times) - targets)
         if miss.max() > _tolerance(problem):
             row, joint = divmod(int(miss.argmax()), problem.dof)
-            yield f"misses waypoint {row + 1}, joint {joint + 1} by {miss.max():.3g} rad"
+            by = problem.amount(float(miss.max()), joint, digits=3)
+            yield f"misses waypoint {row + 1}, {problem.joint_name(joint)} by {by}"
 
 
 def _smoothness_faults(
@@ -201,7 +211,7 @@ def _smoothness_faults(
         jump = trajectory.jumps[order]
         if (jump > allowed).any():
             joint = int(np.argmax(jump / allowed))
-            yield f"{name} of joint {joint + 1} jumps by {jump[joint]:.3g}"
+            yield f"{name} of {problem.joint_name(joint)} jumps by {jump[joint]:.3g}"
         if order == 0:
             continue
         given = asked.end_velocities(problem) * (order == 1)
@@ -209,13 +219,14 @@ def _smoothness_faults(
         if (ends > allowed).any():
             joint = int(np.argmax(ends / allowed))
             off = f"off by {ends[joint]:.3g}" if given.any() else f"{ends[joint]:.3g}"
-            yield f"{name} of joint {joint + 1} is {off} at an end"
+            yield f"{name} of {problem.joint_name(joint)} is {off} at an end"
         for stop in sorted(asked.stops if known else ()):
             moves = np.abs(trajectory.at(trajectory.passage_times[stop], order))
             if (moves > allowed).any():
                 joint = int(np.argmax(moves / allowed))
                 yield (
-                    f"{name} of joint {joint + 1} is {moves[joint]:.3g} at waypoint {stop + 1}, a stop"
+                    f"{name} of {problem.joint_name(joint)} is {moves[joint]:.3g} at waypoint {stop + 1}, "
+                    "a stop"
                 )
 
 
@@ -249,7 +260,19 @@ def _peaks(problem: Problem, trajectory: Trajectory, asked: Conditions) -> list[
         value = float((extremes.high if high else extremes.low)[piece, joint])
         stretch = factor ** (1.0 / order) if order else np.inf
         name = QUANTITIES[order]
-        return Peak(name, joint, int(segments[piece]), time, value, limit, factor, stretch)
+        return Peak(
+            name,
+            joint,
+            int(segments[piece]),
+            time,
+            value,
+            limit,
+            factor,
+            stretch,
+            problem.names[joint] if problem.names else "",
+            problem.units[joint],
+            problem.display_unit,
+        )
 
     bounds = asked.position_bounds(problem)[mine]
     if np.isfinite(bounds).any():

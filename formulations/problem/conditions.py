@@ -26,7 +26,7 @@ class Conditions:
         Waypoints at which the motion stands still: zero velocity, and zero acceleration for joints with a
         jerk limit, as at both ends.
     start_velocity, end_velocity : Array, shape (dof,), optional
-        Velocities in place of rest [rad/s].
+        Velocities in place of rest [rad/s; m/s for a prismatic joint].
     segment_limits : mapping of int to Limits
         Limits that replace the problem's on a segment.
 
@@ -87,8 +87,9 @@ class Conditions:
             ):
                 if not abs(value) <= limit:  # also true for NaN
                     raise InputError(
-                        f"conditions.{key}: joint {joint + 1}: {value:g} rad/s is over the limit "
-                        f"{limit:g} rad/s"
+                        f"conditions.{key}: {problem.joint_name(joint)}: "
+                        f"{problem.amount(value, joint, 1)} is over the limit "
+                        f"{problem.amount(limit, joint, 1)}"
                     )
             if waypoint in self.stops and found.any():
                 raise InputError(f"conditions.{key}: {found} at waypoint {waypoint}, which is a stop")
@@ -124,7 +125,12 @@ class Conditions:
     def _validate_limits(self, problem: Problem, segment: int, limits: Limits) -> None:
         where = f"conditions.segment_limits: segment {segment}"
         try:
-            Problem.of(problem.waypoints[segment : segment + 2], limits)
+            Problem(
+                problem.waypoints[segment : segment + 2],
+                limits,
+                names=problem.names,
+                units=problem.units,
+            )
         except InputError as error:
             raise InputError(f"{where}: {error}") from None
         for key in ("acceleration", "jerk"):
@@ -133,7 +139,7 @@ class Conditions:
             if differs.any():
                 joint = int(differs.argmax())
                 raise InputError(
-                    f"{where}: {key} of joint {joint + 1} is {mine[joint]:g}, the problem's is "
+                    f"{where}: {key} of {problem.joint_name(joint)} is {mine[joint]:g}, the problem's is "
                     f"{whole[joint]:g}: both must be finite or neither"
                 )
 

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Iterable, Mapping
 from dataclasses import dataclass, field, replace
 from typing import Any
 
@@ -10,176 +11,100 @@ from numpy.typing import ArrayLike
 
 from formulations.problem.arrays import Array
 from formulations.problem.errors import InputError
+from formulations.problem.joint_words import (
+    factors,
+    joint_label,
+    read_angle_unit,
+    read_names,
+    read_units,
+    shown_unit,
+)
+from formulations.problem.limits import LIMITED, Limits, numbers
+from formulations.problem.toml_values import known_keys
+
+__all__ = ["POSITION_SLACK", "POSITION_TOLERANCE", "Limits", "Problem"]
 
 POSITION_TOLERANCE = 1e-4  # rad a printed waypoint may lie outside its limit: rounding of tables
+LARGEST_WAYPOINT = 1e6  # rad or m; beyond, ten digits after the point are no longer kept
 
 # rad per (1 + largest |waypoint|) by which a motion may leave the position limits. It covers rounding, most of
 # all that of the optimisers. The check, the swarms' objective, the optimum and the bound share this number.
 POSITION_SLACK = 1e-10
 
-
-@dataclass(frozen=True)
-class Limits:
-    """Limits of each joint: symmetric ones on the derivatives, and an interval of positions.
-
-    Make them with ``Limits.of``, which validates.
-
-    Attributes
-    ----------
-    velocity : Array, shape (dof,)
-        [rad/s]; always finite.
-    acceleration, jerk : Array, shape (dof,)
-        [rad/s^2], [rad/s^3]; infinite where unlimited.
-    position : Array, shape (dof, 2)
-        Least and greatest position [rad]; infinite where unlimited.
-    """
-
-    velocity: Array
-    acceleration: Array
-    jerk: Array
-    position: Array
-
-    @staticmethod
-    def of(
-        velocity: ArrayLike,
-        acceleration: ArrayLike = np.inf,
-        jerk: ArrayLike = np.inf,
-        position: ArrayLike = (-np.inf, np.inf),
-        *,
-        dof: int,
-    ) -> Limits:
-        """Make limits from one number for all joints, or one per joint.
-
-        Parameters
-        ----------
-        velocity, acceleration, jerk : array_like, shape () or (dof,)
-            [rad/s, rad/s^2, rad/s^3]; the last two may be infinite.
-        position : array_like, shape (2,) or (dof, 2)
-            Least and greatest position [rad].
-        dof : int
-            Number of joints.
-
-        Returns
-        -------
-        Limits
-
-        Raises
-        ------
-        InputError
-            For another length, NaN, a limit that is not positive, a velocity that is not finite, or an
-            empty interval of positions.
-
-        Examples
-        --------
-        >>> limits = Limits.of(velocity=[1.5, 2.0], acceleration=5.0, dof=2)
-        >>> limits.acceleration.tolist(), limits.has_jerk
-        ([5.0, 5.0], False)
-        """
-        speeds = _per_joint("limits.velocity", velocity, dof)
-        if not np.isfinite(speeds).all():
-            joint = int(np.argmin(np.isfinite(speeds)))
-            raise InputError(f"limits.velocity: joint {joint + 1}: {speeds[joint]:g} is not finite")
-        bounds = _rows(position, dof)
-        for joint, (low, high) in enumerate(bounds):
-            if not low < high:
-                raise InputError(f"limits.position: joint {joint + 1}: [{low:g}, {high:g}] is empty")
-        return Limits(
-            velocity=speeds,
-            acceleration=_per_joint("limits.acceleration", acceleration, dof),
-            jerk=_per_joint("limits.jerk", jerk, dof),
-            position=bounds,
-        )
-
-    @property
-    def derivatives(self) -> Array:
-        """Velocity, acceleration and jerk limits stacked, (3, dof)."""
-        return np.stack([self.velocity, self.acceleration, self.jerk])
-
-    @property
-    def has_acceleration(self) -> bool:
-        """Whether any joint has a finite acceleration limit."""
-        return bool(np.isfinite(self.acceleration).any())
-
-    @property
-    def has_jerk(self) -> bool:
-        """Whether any joint has a finite jerk limit."""
-        return bool(np.isfinite(self.jerk).any())
-
-    @property
-    def has_position(self) -> bool:
-        """Whether any joint has a finite position limit."""
-        return bool(np.isfinite(self.position).any())
+_TURNS = 2.0  # turns of a joint from which on degrees may have been read as radians
 
 
-@dataclass(frozen=True)
+@dataclass(frozen=True, init=False)
 class Problem:
     """Pass the waypoints in order, from rest to rest, within the limits, as fast as possible.
 
-    Make one with ``Problem.of``, or read it with ``load``; both validate.
+    Parameters
+    ----------
+    waypoints : array_like, shape (n_waypoints, dof)
+        At least two joint positions [unit; m for a prismatic joint].
+    limits : Limits, or mapping of str to array_like
+        Of as many joints. ``Limits`` are in rad and m; a mapping holds the arguments of ``Limits.of``
+        (velocity, acceleration, jerk, position), in ``unit``. A waypoint may lie outside the position
+        limits by 1e-4 rad, because printed tables are rounded.
+    name, title, source : str
+        For reports: a short name, a name for people, and where the numbers come from.
+    family : str, optional
+        Key in ``FAMILIES`` of the spline family in which the problem is posed. Left out, it is "3-5-3"
+        for four waypoints and "4-3-4" otherwise.
+    display_unit : {"rad", "deg"}, optional
+        Unit of angles in messages and reports; ``unit`` if left out.
+    names : iterable of str, optional
+        Names of the joints. Without, they are called joint 1, joint 2, ...
+    units : iterable of str, optional
+        "rad" or "m" per joint; those of the limits if left out.
+    unit : {"rad", "deg"}
+        Unit of the angles that are given.
 
     Attributes
     ----------
-    name : str
     waypoints : Array, shape (n_waypoints, dof)
-        Joint positions [rad].
+        Joint positions [rad, or m].
     limits : Limits
-    family : str
-        Key in ``FAMILIES`` of the spline family in which the problem is posed.
-    title, source : str
-        For reports: a name for people, and where the numbers come from.
-    display_unit : str
-        "rad" or "deg": the unit of angles in reports.
+    name, title, source, family, display_unit : str
+    names, units : tuple of str
+
+    Raises
+    ------
+    InputError
+        In one line that names the argument, the joint and the value.
+
+    Examples
+    --------
+    >>> problem = Problem([[0, 10], [90, 20], [0, 0]], {"velocity": 90, "acceleration": 300}, unit="deg")
+    >>> problem.n_segments, problem.family, problem.limits.velocity.round(4).tolist()
+    (2, '4-3-4', [1.5708, 1.5708])
     """
 
-    name: str
     waypoints: Array
     limits: Limits
+    name: str
     family: str
-    title: str = ""
-    source: str = ""
-    display_unit: str = field(default="rad", compare=False)
+    title: str
+    source: str
+    display_unit: str = field(compare=False)
+    names: tuple[str, ...]
+    units: tuple[str, ...]
 
-    @staticmethod
-    def of(
+    def __init__(
+        self,
         waypoints: ArrayLike,
-        limits: Limits,
+        limits: Limits | Mapping[str, ArrayLike],
         *,
         name: str = "problem",
         family: str | None = None,
         title: str = "",
         source: str = "",
-        display_unit: str = "rad",
-    ) -> Problem:
-        """Make a problem from waypoints and limits.
-
-        Parameters
-        ----------
-        waypoints : array_like, shape (n_waypoints, dof)
-            At least two joint positions [rad].
-        limits : Limits
-            Of as many joints. A waypoint may lie outside the position limits by 1e-4 rad, because printed
-            tables are rounded.
-        name, title, source, display_unit : str
-            As in ``Problem``.
-        family : str, optional
-            Left out, it is "3-5-3" for four waypoints and "4-3-4" otherwise.
-
-        Returns
-        -------
-        Problem
-
-        Raises
-        ------
-        InputError
-            In one line that names the key, the joint and the value.
-
-        Examples
-        --------
-        >>> problem = Problem.of([[0.0], [1.0], [0.5]], Limits.of(velocity=1.0, dof=1))
-        >>> problem.n_segments, problem.family
-        (2, '4-3-4')
-        """
-        points = _numbers("waypoints", waypoints)
+        display_unit: str | None = None,
+        names: Iterable[str] = (),
+        units: Iterable[str] = (),
+        unit: str = "rad",
+    ) -> None:
+        points = numbers("waypoints", waypoints)
         if points.ndim != 2 or points.shape[1] < 1:
             raise InputError(
                 f"waypoints: expected a row per waypoint and a column per joint, "
@@ -188,31 +113,142 @@ class Problem:
         if len(points) < 2:
             raise InputError(f"waypoints: at least two are needed, got {len(points)}")
         dof = points.shape[1]
-        if len(limits.velocity) != dof:
-            raise InputError(
-                f"limits.velocity: {len(limits.velocity)} values for {dof} joints in waypoints"
-            )
+        angle = read_angle_unit("unit", unit)
+        values: dict[str, Any] = {
+            "name": name,
+            "family": family or ("3-5-3" if len(points) == 4 else "4-3-4"),
+            "title": title or name,
+            "source": source,
+            "display_unit": read_angle_unit("display_unit", display_unit or angle),
+            "names": read_names(names, dof),
+        }
+        own = read_units(units or (limits.units if isinstance(limits, Limits) else ()), dof)
+        values["units"] = own
+        values["limits"] = _limits(limits, dof, angle, own, values["names"])
+        values["waypoints"] = points * factors(own, angle)
+        for key, value in values.items():
+            object.__setattr__(self, key, value)
+        self._require_inside(points, angle)
+
+    @staticmethod
+    def of(waypoints: ArrayLike, limits: Limits | Mapping[str, ArrayLike], **others: Any) -> Problem:
+        """Make a problem: the same as ``Problem(waypoints, limits, ...)``.
+
+        Parameters
+        ----------
+        waypoints : array_like, shape (n_waypoints, dof)
+            At least two joint positions.
+        limits : Limits or mapping
+            Of as many joints.
+        **others
+            As in ``Problem``.
+
+        Returns
+        -------
+        Problem
+
+        Examples
+        --------
+        >>> problem = Problem.of([[0.0], [1.0], [0.5]], Limits.of(velocity=1.0, dof=1))
+        >>> problem.n_segments, problem.family
+        (2, '4-3-4')
+        """
+        return Problem(waypoints, limits, **others)
+
+    def _require_inside(self, given: Array, angle: str) -> None:
+        """Refuse waypoints that are not finite or lie outside; given: as written, angles in ``angle``."""
+        points, limits = self.waypoints, self.limits
+
+        def at(row: Any, joint: Any) -> str:
+            return f"waypoints: row {row + 1}, {self.joint_name(joint)}: {given[row, joint]:.6g}"
+
         if not np.isfinite(points).all():
             row, joint = np.argwhere(~np.isfinite(points))[0]
+            raise InputError(f"{at(row, joint)} is not finite")
+        if (np.abs(points) > LARGEST_WAYPOINT).any():
+            row, joint = np.argwhere(np.abs(points) > LARGEST_WAYPOINT)[0]
+            unit, most = self.units[joint], LARGEST_WAYPOINT / factors(self.units, angle)[joint]
             raise InputError(
-                f"waypoints: row {row + 1}, joint {joint + 1}: {points[row, joint]:g} is not finite"
+                f"{at(row, joint)} {shown_unit(unit, angle)} is beyond {most:.3g}, the largest allowed"
             )
         outside = np.maximum(limits.position[:, 0] - points, points - limits.position[:, 1])
-        if (outside > POSITION_TOLERANCE).any():
-            row, joint = np.unravel_index(int(outside.argmax()), outside.shape)
-            low, high = limits.position[joint]
-            raise InputError(
-                f"waypoints: row {row + 1}, joint {joint + 1}: {points[row, joint]:.6g} rad lies "
-                f"outside limits.position [{low:.6g}, {high:.6g}] rad"
-            )
-        return Problem(
-            name=name,
-            waypoints=points,
-            limits=limits,
-            family=family or ("3-5-3" if len(points) == 4 else "4-3-4"),
-            title=title or name,
-            source=source,
-            display_unit=display_unit,
+        if not (outside > POSITION_TOLERANCE).any():
+            return
+        row, joint = np.unravel_index(int(outside.argmax()), outside.shape)
+        low, high = limits.position[joint] / factors(self.units, angle)[joint]
+        unit = shown_unit(self.units[joint], angle)
+        turned = points * factors(self.units, "deg")
+        fits = ((turned >= limits.position[:, 0]) & (turned <= limits.position[:, 1])).all()
+        hint = '; in degrees all would be inside: unit = "deg"?' if fits and unit == "rad" else ""
+        raise InputError(
+            f"{at(row, joint)} {unit} lies outside limits.position [{low:.6g}, {high:.6g}] {unit}{hint}"
+        )
+
+    def __eq__(self, other: object) -> bool:
+        if not isinstance(other, Problem):
+            return NotImplemented
+        words = ("name", "family", "title", "source", "names", "units", "limits")
+        return np.array_equal(self.waypoints, other.waypoints) and all(
+            getattr(self, key) == getattr(other, key) for key in words
+        )
+
+    def __repr__(self) -> str:
+        return (
+            f"Problem({self.name!r}: {len(self.waypoints)} waypoints of {self.dof} joints, "
+            f"family {self.family})"
+        )
+
+    def joint_name(self, joint: int) -> str:
+        """Say which joint is meant: ``joint elbow``, or ``joint 2`` where joints have no names.
+
+        Parameters
+        ----------
+        joint : int
+            Counts from 0.
+
+        Returns
+        -------
+        str
+        """
+        return joint_label(self.names, joint)
+
+    def amount(self, value: float, joint: int, order: int = 0, *, digits: int = 6) -> str:
+        """Show a value of a joint with its unit, in ``display_unit``.
+
+        Parameters
+        ----------
+        value : float
+            [rad/s^order, or m/s^order].
+        joint : int
+            Counts from 0.
+        order : int
+            Order of the derivative; 0 is the position.
+        digits : int
+            Significant digits.
+
+        Returns
+        -------
+        str
+            ``90 deg/s``, say.
+        """
+        scale = float(factors(self.units, self.display_unit)[joint])
+        return f"{value / scale:.{digits}g} {shown_unit(self.units[joint], self.display_unit, order)}"
+
+    @property
+    def hints(self) -> tuple[str, ...]:
+        """What is legal but was probably not meant: joints that turn so far as if degrees were radians."""
+        if self.display_unit != "rad":
+            return ()
+        rotary = np.array(self.units) == "rad"
+        steps = np.diff(self.waypoints, axis=0, prepend=self.waypoints[:1])
+        found = np.maximum(np.abs(self.waypoints), np.abs(steps)) * rotary / (2.0 * np.pi)
+        if not (found > _TURNS).any():
+            return ()
+        row, joint = np.unravel_index(int(found.argmax()), found.shape)
+        return (
+            f"waypoints: row {row + 1}, {self.joint_name(int(joint))}: "
+            f"{self.waypoints[row, joint]:.6g} rad takes {found[row, joint]:.3g} turns; are these degrees? "
+            'then say unit="deg"',
         )
 
     @property
@@ -263,13 +299,16 @@ class Problem:
         return replace(
             self,
             name=f"{self.name}[{index + 1}]",
-            title=f"{self.title}, joint {index + 1} alone",
+            title=f"{self.title}, {self.joint_name(index)} alone",
             waypoints=self.waypoints[:, one],
+            names=self.names[one],
+            units=self.units[one],
             limits=Limits(
                 limits.velocity[one],
                 limits.acceleration[one],
                 limits.jerk[one],
                 limits.position[one],
+                limits.units[one],
             ),
         )
 
@@ -279,33 +318,25 @@ class Problem:
         return [j for j in range(self.dof) if np.ptp(self.waypoints[:, j]) > 0.0]
 
 
-def _numbers(key: str, values: Any) -> Array:
-    try:
-        return np.array(values, dtype=np.float64)
-    except (TypeError, ValueError, OverflowError):
-        raise InputError(f"{key}: expected numbers in rows of equal length") from None
-
-
-def _per_joint(key: str, values: ArrayLike, dof: int) -> Array:
-    numbers = _numbers(key, values)
-    if numbers.ndim == 0:
-        numbers = np.full(dof, float(numbers))
-    if numbers.shape != (dof,):
-        raise InputError(f"{key}: expected one number or {dof}, one per joint, got {numbers.shape}")
-    for joint, value in enumerate(numbers):
-        if not value > 0.0:  # also false for NaN
-            raise InputError(f"{key}: joint {joint + 1}: {value:g} is not positive")
-    return numbers
-
-
-def _rows(values: ArrayLike, dof: int) -> Array:
-    numbers = _numbers("limits.position", values)
-    if numbers.shape == (2,):
-        numbers = np.tile(numbers, (dof, 1))
-    if numbers.shape != (dof, 2):
+def _limits(
+    given: Limits | Mapping[str, ArrayLike],
+    dof: int,
+    angle: str,
+    units: tuple[str, ...],
+    names: tuple[str, ...],
+) -> Limits:
+    """Limits of ``dof`` joints; angles of a mapping are in ``angle``."""
+    if isinstance(given, Limits):
+        if len(given.velocity) != dof:
+            raise InputError(
+                f"limits.velocity: {len(given.velocity)} values for {dof} joints in waypoints"
+            )
+        return given
+    if not isinstance(given, Mapping):
         raise InputError(
-            f"limits.position: expected [low, high] for each of {dof} joints, got {numbers.shape}"
+            f"limits: expected Limits or a mapping of {', '.join(LIMITED)}, got {given!r:.50}"
         )
-    if np.isnan(numbers).any():
-        raise InputError(f"limits.position: joint {np.argwhere(np.isnan(numbers))[0, 0] + 1}: NaN")
-    return numbers
+    known_keys("limits", dict(given), LIMITED)
+    if "velocity" not in given:
+        raise InputError("limits.velocity: missing")
+    return Limits.of(**given, dof=dof, unit=angle, units=units, names=names)

@@ -5,22 +5,34 @@ from __future__ import annotations
 import tomllib
 from importlib.resources import files
 from pathlib import Path
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
+from formulations.arms.arm import METRES
 from formulations.families import FAMILIES
 from formulations.problem.arrays import Array
 from formulations.problem.errors import InputError
+from formulations.problem.joint_words import UNITS
+from formulations.problem.limit_table import limits_of_robot, limits_of_table
 from formulations.problem.poses import POSED, waypoints_of_poses
-from formulations.problem.problem import Limits, Problem
+from formulations.problem.problem import Problem
+from formulations.problem.robot_files import (
+    ROBOT_KEYS,
+    read_texts,
+    require_few,
+    robot_of_keys,
+    waypoints_from,
+)
 from formulations.problem.toml_values import (
-    UNITS,
     known_keys,
+    nearest,
     read_choice,
-    read_limit,
     read_matrix,
     read_text,
     shown,
 )
+
+if TYPE_CHECKING:
+    from formulations.robot import Robot
 
 CASES: tuple[str, ...] = tuple(
     sorted(
@@ -30,8 +42,11 @@ CASES: tuple[str, ...] = tuple(
     )
 )
 
-_KEYS = ("name", "title", "source", "unit", "family", "waypoints", "limits", *POSED)
-_LIMIT_KEYS = ("unit", "velocity", "acceleration", "jerk", "position")
+_KEYS = (
+    *("name", "title", "source", "unit", "family", "waypoints", "limits", *POSED),
+    *("joints", "prismatic", "waypoints_file", *ROBOT_KEYS),
+)
+_BOM = "\ufeff"
 _LARGEST_FILE = 10_000_000  # bytes; a problem file is a few kilobytes
 
 
@@ -67,7 +82,7 @@ def load(file_or_case: str | Path) -> Problem:
     try:
         if path.stat().st_size > _LARGEST_FILE:
             raise InputError(f"{path}: larger than {_LARGEST_FILE} bytes, not a problem file")
-        text = path.read_text("utf-8")
+        text = path.read_text("utf-8-sig")
     except FileNotFoundError:
         raise InputError(
             f"{path}: no such file, and no case of that name (cases: {', '.join(CASES)})"
@@ -76,19 +91,21 @@ def load(file_or_case: str | Path) -> Problem:
         raise InputError(f"{path}: not a UTF-8 text file") from None
     except (OSError, ValueError) as error:
         raise InputError(f"{path}: cannot be read: {error}") from None
-    return parse(text, where=str(path))
+    return parse(text, where=str(path), folder=path.parent)
 
 
-def parse(text: str, *, where: str = "problem") -> Problem:
+def parse(text: str, *, where: str = "problem", folder: str | Path = ".") -> Problem:
     """Read a problem from TOML text.
 
     Parameters
     ----------
     text : str
-        The keys are in the README: ``waypoints`` or ``arm`` and ``[[pose]]``, ``[limits]``, and ``name``,
-        ``title``, ``source``, ``unit``, ``family``.
+        The keys are in the README: ``waypoints``, ``waypoints_file``, or ``arm`` and ``[[pose]]``;
+        ``[limits]``, or ``robot`` and ``limits_file``; and ``name``, ``joints``, ``unit``, ``family``, ....
     where : str
         Start of every error line.
+    folder : str or Path
+        Files that the text names are relative to it.
 
     Returns
     -------
@@ -112,35 +129,36 @@ def parse(text: str, *, where: str = "problem") -> Problem:
     (2, 2)
     """
     try:
-        data = tomllib.loads(text)
+        data = tomllib.loads(text.removeprefix(_BOM))
     except (ValueError, RecursionError) as error:  # ValueError: also whole numbers beyond 4300 digits
         raise InputError(f"{where}: not valid TOML: {error}") from None
     try:
-        return _problem(data)
+        return _problem(data, Path(folder))
     except InputError as error:
         raise InputError(f"{where}: {error}") from None
 
 
-def _problem(data: dict[str, Any]) -> Problem:
+def _problem(data: dict[str, Any], folder: Path) -> Problem:
     known_keys("key", data, _KEYS)
-    for key in ("pose" if "arm" in data else "waypoints", "limits"):
-        if key not in data:
-            raise InputError(f"{key}: missing")
     texts = {key: read_text(key, data.get(key, "")) for key in ("name", "title", "source")}
     unit = read_choice("unit", data.get("unit", "rad"), UNITS)
     family = data.get("family")
     if family is not None:
         read_choice("family", family, FAMILIES)
-    reach = None
-    if "arm" in data:
-        waypoints, reach = waypoints_of_poses(data, UNITS[unit])
+    robot = _robot(data, folder)
+    if robot is not None:  # a missing limit is asked for first
+        limits, limit_unit = limits_of_robot(data.get("limits", {}), unit, robot)
+    waypoints, angle, reach = _waypoints(data, folder, unit, robot)
+    dof = waypoints.shape[1]
+    if robot is not None:
+        names, units = robot.names, robot.units
     else:
-        for key in POSED[1:]:
-            if key in data:
-                raise InputError(f"{key}: needs an arm to be solved for (key arm)")
-        waypoints = read_matrix("waypoints", data["waypoints"]) * UNITS[unit]
-    limits, limit_unit = _limits(data["limits"], unit, waypoints.shape[1], reach)
-    problem = Problem.of(
+        names = read_texts("joints", data["joints"]) if "joints" in data else ()
+        units = _units(data, names, dof)
+        if "limits" not in data:
+            raise InputError("limits: missing")
+        limits, limit_unit = limits_of_table(data["limits"], unit, names, units, reach)
+    problem = Problem(
         waypoints,
         limits,
         name=data.get("name", "problem"),
@@ -148,27 +166,66 @@ def _problem(data: dict[str, Any]) -> Problem:
         title=texts["title"],
         source=texts["source"],
         display_unit=limit_unit,
+        names=names,
+        units=units,
+        unit=angle,
     )
     if family is not None:
         FAMILIES[family].require(problem)
     return problem
 
 
-def _limits(table: Any, unit: str, dof: int, reach: Array | None) -> tuple[Limits, str]:
-    """Limits of the table [limits], and their unit; reach: position limits (dof, 2) where none are given."""
-    if not isinstance(table, dict):
-        raise InputError(f"limits: expected a table, got {shown(table)}")
-    known_keys("limits", table, _LIMIT_KEYS)
-    if "velocity" not in table:
-        raise InputError("limits.velocity: missing")
-    unit = read_choice("limits.unit", table.get("unit", unit), UNITS)
-    scale = UNITS[unit]
-    limits: dict[str, Any] = {}
-    for key in ("velocity", "acceleration", "jerk"):
-        if key in table:
-            limits[key] = read_limit(f"limits.{key}", table[key], dof) * scale
-    if "position" in table:
-        limits["position"] = read_matrix("limits.position", table["position"], "joint", "value") * scale
-    elif reach is not None:
-        limits["position"] = reach
-    return Limits.of(**limits, dof=dof), unit
+def _robot(data: dict[str, Any], folder: Path) -> Robot | None:
+    """The robot whose files are named; None without."""
+    if "robot" in data:
+        for key in ("arm", "prismatic"):
+            if key in data:
+                raise InputError(f"{key}: given beside robot; leave one of them out")
+        return robot_of_keys(data, folder)
+    for key in (*ROBOT_KEYS, "waypoints_file"):
+        if key in data:
+            raise InputError(f'{key}: needs a robot (key robot = "FILE.urdf")')
+    return None
+
+
+def _waypoints(
+    data: dict[str, Any], folder: Path, unit: str, robot: Robot | None
+) -> tuple[Array, str, Array | None]:
+    """Waypoints, the unit of their angles, and position limits (dof, 2) of an arm whose poses they are."""
+    given = [key for key in ("waypoints", "waypoints_file", "arm") if key in data]
+    if not given:
+        raise InputError("waypoints: missing")
+    if len(given) > 1:
+        beside = " and ".join(given[1:])
+        raise InputError(f"{given[0]}: given beside {beside}; leave all but one out")
+    if "arm" in data:
+        if "pose" not in data:
+            raise InputError("pose: missing")
+        solved, reach = waypoints_of_poses(data, UNITS[unit])
+        return solved, "rad", reach
+    for key in POSED[1:]:
+        if key in data and not (key == "length" and "waypoints_file" in data):
+            raise InputError(f"{key}: needs an arm to be solved for (key arm)")
+    if robot is not None and "waypoints_file" in data:
+        path = folder / read_text("waypoints_file", data["waypoints_file"])
+        length = read_choice("length", data.get("length", "m"), METRES)
+        return waypoints_from(path, robot, unit, length), "rad", None
+    if isinstance(data["waypoints"], list):
+        require_few("waypoints", len(data["waypoints"]))
+    points = read_matrix("waypoints", data["waypoints"])
+    if robot is not None and points.shape[1] != robot.dof:
+        raise InputError(
+            f"waypoints: {points.shape[1]} columns for {robot.dof} joints ({', '.join(robot.names)})"
+        )
+    return points, unit, None
+
+
+def _units(data: dict[str, Any], names: tuple[str, ...], dof: int) -> tuple[str, ...]:
+    """Unit per joint: m for those that the key ``prismatic`` names."""
+    sliding = read_texts("prismatic", data.get("prismatic", []))
+    for name in sliding:
+        if not names:
+            raise InputError("prismatic: names joints, so the key joints is needed too")
+        if name not in names:
+            raise InputError(f"prismatic: no joint {shown(name)}{nearest(name, names)}")
+    return tuple("m" if j < len(names) and names[j] in sliding else "rad" for j in range(dof))

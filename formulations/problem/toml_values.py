@@ -7,14 +7,13 @@ from __future__ import annotations
 
 import difflib
 import math
+from collections.abc import Sequence
 from typing import Any
 
 import numpy as np
 
 from formulations.problem.arrays import Array
 from formulations.problem.errors import InputError
-
-UNITS = {"rad": 1.0, "deg": math.pi / 180.0}  # rad per unit
 
 
 def known_keys(kind: str, table: dict[str, Any], known: tuple[str, ...]) -> None:
@@ -36,9 +35,27 @@ def known_keys(kind: str, table: dict[str, Any], known: tuple[str, ...]) -> None
     """
     for key in table:
         if key not in known:
-            near = difflib.get_close_matches(key, known, n=1, cutoff=0.5)
-            hint = f"; did you mean {near[0]}?" if near else ""
-            raise InputError(f"{kind}: unknown key {shown(key)}{hint} (known: {', '.join(known)})")
+            raise InputError(f"{kind}: unknown key {shown(key)}{nearest(str(key), known)}")
+
+
+def nearest(name: str, known: Sequence[str]) -> str:
+    """Say which names there are: the end of a message about an unknown one.
+
+    Parameters
+    ----------
+    name : str
+        The unknown name.
+    known : sequence of str
+        All known ones.
+
+    Returns
+    -------
+    str
+        ``; did you mean a? (known: a, b)``, without the question where none is near.
+    """
+    near = difflib.get_close_matches(name[:100], known, n=1, cutoff=0.5)
+    hint = f"; did you mean {near[0]}?" if near else ""
+    return f"{hint} (known: {', '.join(known)})"
 
 
 def shown(value: Any) -> str:
@@ -137,34 +154,6 @@ def read_number(key: str, value: Any) -> float:
     if not math.isfinite(number):
         raise InputError(f"{key}: {number} is not finite (leave the key out if unlimited)")
     return number
-
-
-def read_limit(key: str, value: Any, dof: int) -> Array:
-    """Read a limit: one number for all joints, or one per joint.
-
-    Parameters
-    ----------
-    key : str
-        Where the value stands, for the message.
-    value : object
-        A number or a list.
-    dof : int
-        Number of joints.
-
-    Returns
-    -------
-    Array, shape (dof,)
-
-    Raises
-    ------
-    InputError
-        If the list has another length, or an entry is no finite number.
-    """
-    if not isinstance(value, list):
-        return np.full(dof, read_number(key, value))
-    if len(value) != dof:
-        raise InputError(f"{key}: {len(value)} values for {dof} joints")
-    return np.array([read_number(f"{key}: joint {j + 1}", entry) for j, entry in enumerate(value)])
 
 
 def read_matrix(key: str, rows: Any, row_name: str = "row", column_name: str = "joint") -> Array:

@@ -228,7 +228,7 @@ def _refusal(problem: Problem) -> str:
     unlimited = np.isinf(data.derivatives).all(axis=0)
     if unlimited.any():
         joint = problem.moving_joints[int(unlimited.argmax())]
-        return f"joint {joint + 1} moves without a limit on velocity, acceleration or jerk"
+        return f"{problem.joint_name(joint)} moves without a limit on velocity, acceleration or jerk"
     if (data.least[data.d != 0.0] < _SMALLEST).any():
         return f"a displacement is smaller than {_SMALLEST:g} rad"
     return ""

@@ -1,7 +1,7 @@
 """A robot: the joints that are moved, their limits in force, and its kinematics.
 
 robot = Robot.from_urdf("panda.urdf", srdf="panda.srdf", group="arm", limits="joint_limits.yaml")
-problem = Problem.of(waypoints_of("path.csv", robot), robot.limits)
+problem = Problem(waypoints_of("path.csv", robot), robot.limits, names=robot.names)
 """
 
 from __future__ import annotations
@@ -134,8 +134,8 @@ class Robot:
         message = missing_limits(self.joints)
         if message is not None:
             raise InputError(f"robot {shown(self.name)}: {message}")
-        rows = {name: [getattr(joint, name) for joint in self.joints] for name in QUANTITIES}
-        return Limits.of(**rows, dof=self.dof)
+        rows = [[getattr(joint, name) for joint in self.joints] for name in QUANTITIES]
+        return Limits.of(*rows, dof=self.dof, units=self.units, names=self.names)
 
     def with_limits(
         self,

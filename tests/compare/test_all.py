@@ -17,8 +17,8 @@ import pytest
 from commands_run import ROOT, command
 from graded_runs import without_times
 
-from compare.benchmark.rows import RowStatus, csv_text
-from compare.benchmark.store import Store
+from compare.benchmark.records.rows import RowStatus, csv_text
+from compare.benchmark.records.store import Store
 
 SMALL = ("--cases", "sr4c,cobot", "--swarms", "pso,whale", "--seeds", "2", "--budget", "200")
 

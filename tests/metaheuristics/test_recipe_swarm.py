@@ -87,10 +87,10 @@ def test_the_recipe_for_a_swarm(tmp_path: Path) -> None:
     registry.write_text(lines.replace(before, f"{before}    {entry.strip()},\n", 1), "utf-8")
 
     # 3. grade it, by the command of the recipe
-    words = re.search(r"`python -m (compare\.all --swarms [^`:]+)` grades it", text)
+    words = re.search(r"`timebound (all --swarms [^`:]+)` grades it", text)
     assert words is not None
     assert f"--swarms {NAME},pso" in words[1]
-    python(folder, "-m", *words[1].split(), *SMALL, "--out", "report")
+    python(folder, "-m", "compare", *words[1].split(), *SMALL, "--out", "report")
     graded = rows(folder / "report")
     assert [row["swarm"] for row in graded] == [NAME] * 2 + ["pso"] * 2
     assert {row["status"] for row in graded} == {"ok"}

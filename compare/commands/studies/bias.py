@@ -5,8 +5,8 @@ from __future__ import annotations
 from compare.benchmark import suite
 from compare.commands.options import CORES, Budget, Cases, Jobs, Json, Out, Resume, Seeds, Swarms
 from compare.commands.studies import in_workers
-from compare.studies.bias import STUDY, calls
-from compare.studies.centred_functions import FUNCTIONS
+from compare.studies.drawn_to_zero.bias import STUDY, calls
+from compare.studies.drawn_to_zero.centred_functions import FUNCTIONS
 from formulations import CASES
 
 

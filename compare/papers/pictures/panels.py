@@ -14,9 +14,9 @@ from matplotlib.lines import Line2D
 from numpy.typing import ArrayLike
 
 from compare.papers.measure import spline
-from compare.report.figures import samples
 from compare.report.style import BLACK, BLUE, GREEN, GREY, ORANGE, PURPLE, SKY, VERMILION, styled
 from formulations import Problem, Trajectory
+from formulations.motion.picture import samples
 from formulations.motion.verdict import QUANTITIES, TOLERANCE
 
 _JOINTS: list[tuple[Any, Any]] = [

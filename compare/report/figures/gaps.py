@@ -7,7 +7,7 @@ from collections.abc import Sequence
 import matplotlib.pyplot as plt
 from matplotlib.figure import Figure
 
-from compare.benchmark.rows import Row
+from compare.benchmark.records.rows import Row
 from compare.benchmark.statistics import gaps_of, median
 from compare.report.style import BLACK, CODING_STYLE, GREY, SMALLEST_GAP, styled
 from formulations import Problem

@@ -11,13 +11,13 @@ from matplotlib.figure import Figure
 from matplotlib.lines import Line2D
 
 from compare.benchmark.ladders import LadderRecord
-from compare.benchmark.rows import Row, durations_of
+from compare.benchmark.records.rows import Row, durations_of
 from compare.benchmark.statistics import best_claim, best_row
 from compare.report.style import BLACK, BLUE, GREY, VERMILION, styled
 from formulations import FAMILIES, Problem, Trajectory, check
-from formulations.problem.arrays import Array
-
-_QUANTITIES = (("position", ""), ("velocity", "/s"), ("acceleration", "/s²"), ("jerk", "/s³"))
+from formulations.motion.picture import samples
+from formulations.motion.verdict import QUANTITIES
+from formulations.problem.joint_words import factors, shown_unit
 
 
 @styled
@@ -48,19 +48,20 @@ def motion_figure(problem: Problem, ladder: LadderRecord, rows: Sequence[Row]) -
     claim = best_claim(rows)
     claimed = None if claim is None else _claimed_motion(problem, claim)
 
-    unit = 180.0 / np.pi if problem.display_unit == "deg" else 1.0
+    scales = 1.0 / factors(problem.units, problem.display_unit)
     joints = problem.moving_joints
     figure, grid = plt.subplots(
         4, len(joints), figsize=(1.2 + 2.0 * len(joints), 7.2), sharex=True, squeeze=False
     )
     for column, j in enumerate(joints):
-        for order, (name, per) in enumerate(_QUANTITIES):
+        for order, name in enumerate(QUANTITIES):
             axes = grid[order][column]
-            _curves(axes, problem, motion, claimed, j, order, unit)
-            if column == 0:
-                axes.set_ylabel(f"{name}\n[{problem.display_unit}{per}]")
+            _curves(axes, problem, motion, claimed, j, order, float(scales[j]))
+            if column == 0 or problem.units[j] != problem.units[joints[column - 1]]:
+                unit = shown_unit(problem.units[j], problem.display_unit, order)
+                axes.set_ylabel(f"{name}\n[{unit}]")
             axes.tick_params(labelsize=7)
-        grid[0][column].set_title(f"joint {j + 1}", fontsize=9)
+        grid[0][column].set_title(problem.joint_name(j), fontsize=9)
         grid[3][column].set_xlabel("time [s]")
     handles = [
         Line2D([], [], color=BLUE, lw=1.4),
@@ -118,23 +119,3 @@ def _curves(
         axes.plot(motion.passage_times, problem.waypoints[:, joint] * unit, "o", color=BLUE, ms=3)
     for passage in motion.passage_times[1:-1]:
         axes.axvline(passage, color=GREY, lw=0.4, alpha=0.6)
-
-
-def samples(motion: Trajectory, joint: int, order: int) -> tuple[Array, Array]:
-    """Return the points of a curve; pieces are sampled apart, so that a jump of the jerk is vertical.
-
-    Parameters
-    ----------
-    motion : Trajectory
-    joint : int
-    order : int
-        Derivative: 0 position to 3 jerk.
-
-    Returns
-    -------
-    times : Array, shape (m,) [s]
-    values : Array, shape (m,) [rad/s^order]
-    """
-    s = np.linspace(1e-9, 1.0 - 1e-9, 60)
-    t = (motion.breaks[:-1, None] + motion.durations[:, None] * s).ravel()
-    return t, motion.at(t, order)[:, joint]

@@ -34,8 +34,8 @@ def require_exportable(problem: Problem, seconds: float, rate: float | None) -> 
     for joint in problem.moving_joints:
         if not np.isfinite(problem.limits.acceleration[joint]):
             raise InputError(
-                f"limits.acceleration: joint {joint + 1} has none; a controller cannot follow a motion "
-                "whose velocity jumps, so give a limit for this joint"
+                f"limits.acceleration: {problem.joint_name(joint)} has none; a controller cannot follow a "
+                "motion whose velocity jumps, so give a limit for this joint"
             )
     if rate is None:
         return

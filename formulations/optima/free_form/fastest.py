@@ -73,6 +73,9 @@ class FreeForm:
         """Total time [s]."""
         return 0.0 if self.trajectory is None else self.trajectory.seconds
 
+    def __repr__(self) -> str:
+        return f"FreeForm({self.problem.name!r}: {self.seconds:.9g} s, {self.method}, {self.status})"
+
 
 def free_form(
     problem: Problem,

@@ -9,7 +9,7 @@ import pytest
 from graded_runs import graded
 
 from compare.benchmark.known_times import SWARMS, table_of_known_times
-from compare.benchmark.rows import Row
+from compare.benchmark.records.rows import Row
 from formulations import CASES, FAMILIES, load
 from metaheuristics import ALGORITHMS
 

@@ -8,9 +8,9 @@ from pathlib import Path
 import pytest
 
 from compare.benchmark.grade import Run, grade
-from compare.benchmark.rows import RowStatus
+from compare.benchmark.records.rows import RowStatus
+from compare.benchmark.records.store import Store
 from compare.benchmark.run import climb, swarm, workers
-from compare.benchmark.store import Store
 from formulations import load
 from metaheuristics.entry import TIME_LIMIT
 

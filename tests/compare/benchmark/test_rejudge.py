@@ -16,8 +16,8 @@ from hypothesis import strategies as st
 
 from compare.benchmark.ladders import LadderRecord, ladder_record
 from compare.benchmark.objective import CODINGS
-from compare.benchmark.rejudge import exact_extent, judged_again
-from compare.benchmark.rows import BoundProof, Row, RowStatus, csv_text, read_csv
+from compare.benchmark.records.rejudge import exact_extent, judged_again
+from compare.benchmark.records.rows import BoundProof, Row, RowStatus, csv_text, read_csv
 from compare.benchmark.statistics import bound_of, summaries
 from formulations import FAMILIES, Problem, check, load
 

@@ -10,14 +10,15 @@ from pathlib import Path
 import pytest
 from graded_runs import without_times
 
-from compare.benchmark import provenance, suite
+from compare.benchmark import suite
 from compare.benchmark.grade import Run
 from compare.benchmark.ladders import LadderRecord
-from compare.benchmark.provenance import code_digest
-from compare.benchmark.rows import csv_text
+from compare.benchmark.records import provenance
+from compare.benchmark.records.provenance import code_digest
+from compare.benchmark.records.rows import csv_text
+from compare.benchmark.records.store import Store
 from compare.benchmark.run import swarm
 from compare.benchmark.statistics import summaries
-from compare.benchmark.store import Store
 from formulations import load
 
 PROBLEMS = {"cobot": load("cobot")}

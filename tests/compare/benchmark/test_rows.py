@@ -15,7 +15,7 @@ from graded_runs import graded
 from hypothesis import given
 from hypothesis import strategies as st
 
-from compare.benchmark.rows import (
+from compare.benchmark.records.rows import (
     COLUMNS,
     TIMING_COLUMNS,
     BoundProof,

@@ -8,10 +8,10 @@ from pathlib import Path
 
 import pytest
 
-from compare.benchmark.rows import BoundProof
+from compare.benchmark.records.rows import BoundProof
+from compare.benchmark.records.store import Store
 from compare.benchmark.run import climb, workers
 from compare.benchmark.statistics import bound_of
-from compare.benchmark.store import Store
 from formulations import load
 
 

@@ -7,8 +7,8 @@ from pathlib import Path
 import pytest
 from graded_runs import graded, stored, without_times
 
-from compare.benchmark.rows import COLUMNS
-from compare.benchmark.store import Store
+from compare.benchmark.records.rows import COLUMNS
+from compare.benchmark.records.store import Store
 from formulations import InputError, load
 
 

@@ -10,7 +10,7 @@ from typing import Any
 import pytest
 from graded_runs import stored
 
-from compare.benchmark import store as store_module
+from compare.benchmark.records import store as store_module
 
 
 class Killed(BaseException):

@@ -89,6 +89,7 @@ def test_an_unknown_option_is_one_line(name: str, capsys: pytest.CaptureFixture[
 NEED_A_FILE = ("solve", "plan", "split", "motion_picture", "check_certificate", "report")
 
 BAD = {
+    "new": (["--limits", "joint_limits.yaml"], "--limits: needs a robot (--from-urdf URDF)"),
     "solve": (["nowhere.toml"], "nowhere.toml: no such file"),
     "plan": (["sr4c", "--stop", "soon"], '--stop: unable to convert "soon" into int'),
     "split": (["sr4c", "--swarm", "psoo"], "--swarm: 'psoo' is not known; did you mean 'pso'?"),

@@ -40,7 +40,7 @@ def test_a_stop_and_a_passage_are_kept_and_the_file_holds_the_motion(
         (("--start-velocity", "1,2"), "--start-velocity: expected 6 finite numbers"),
         (("--start-velocity", "-1,2"), "--start-velocity: expected 6 finite numbers, got '-1,2'"),
         (("--end-velocity", "a"), "--end-velocity: 'a' is not a list"),
-        (("--end-velocity", "0,0,0,0,0,9"), "joint 6: 9 rad/s is over the limit"),
+        (("--end-velocity", "0,0,0,0,0,900"), "joint 6: 900 deg/s is over the limit"),
         (("--gap", "0"), "--gap: 0 is not positive"),
         (("--rate", "0"), "--rate: 0 is not positive"),
         (("--export", "motion.csv", "--rate", "1e9"), "rate: 1e+09 points per second over"),

@@ -11,8 +11,8 @@ import pytest
 from compare.audit import FAULTS
 from compare.audit.findings import IN_SHORT
 from compare.benchmark.known_times import key_of_paper, table_of_known_times
+from compare.benchmark.records.store import Store
 from compare.benchmark.run import audits
-from compare.benchmark.store import Store
 from compare.report.page import environment, papers_context
 from compare.report.papers_at_a_glance import papers_at_a_glance
 from formulations import CASES, InputError, load

@@ -17,9 +17,10 @@ from compare.benchmark.objective import Objective, search_box
 from compare.benchmark.suite import DEFAULT_CONTROLS, FULL_CONTROLS, QUICK_SWARMS, runs, swarms_of
 from compare.papers.wang_2025 import ablation, cec2017
 from compare.papers.wang_2025 import joint_1 as table8
-from compare.studies import bias, readings
-from compare.studies.centred_functions import FUNCTIONS
-from compare.studies.origin_shift import COORDINATES, seen_in
+from compare.studies import readings
+from compare.studies.drawn_to_zero import bias
+from compare.studies.drawn_to_zero.centred_functions import FUNCTIONS
+from compare.studies.drawn_to_zero.origin_shift import COORDINATES, seen_in
 from compare.studies.speed_swarms import costs
 from formulations import InputError, load
 from metaheuristics import ALGORITHMS

@@ -115,7 +115,7 @@ def test_what_cannot_be_done_is_one_clear_line(asked: Conditions, line: str) -> 
         (Conditions(total=2.0, passage={1: 3.0}), "waypoint 1: 3 s is after conditions.total, 2 s"),
         (Conditions(stops=frozenset({7})), "conditions.stops: waypoint 7 is not there"),
         (Conditions(start_velocity=np.zeros(2)), r"start_velocity: expected 6 values, got \(2,\)"),
-        (Conditions(end_velocity=np.full(6, 9.0)), "end_velocity: joint 1: 9 rad/s is over the limit"),
+        (Conditions(end_velocity=np.full(6, 9.0)), "joint 1: 515.662 deg/s is over the limit 25 deg/s"),
         (Conditions(start_velocity=DRIFT, stops=frozenset({0})), "start_velocity: .* which is a stop"),
         (Conditions(segment_limits={5: SLOW}), "segment_limits: segment 5 is not there: 0 to 2"),
         (Conditions(segment_limits={0: SR4C.limits}), "segment 0: jerk of joint 1 is inf"),

@@ -17,7 +17,7 @@ from typing import Any, NamedTuple, get_type_hints
 
 import numpy as np
 
-from compare.benchmark.cells import cell_text, parser_of
+from compare.benchmark.records.cells import cell_text, parser_of
 from formulations import InputError
 from formulations.problem.arrays import Array
 

@@ -21,7 +21,7 @@ from typing import Any
 from compare.benchmark.grade import Graded, Run, Trace
 from compare.benchmark.known_times import KnownTime
 from compare.benchmark.ladders import LadderRecord, checked_ladder_record
-from compare.benchmark.rows import Row, RunKey, csv_text, read_csv
+from compare.benchmark.records.rows import Row, RunKey, csv_text, read_csv
 from compare.files import write_json, write_text
 from formulations import InputError
 

@@ -19,11 +19,11 @@ import numpy as np
 from matplotlib.figure import Figure
 
 from compare.benchmark.objective import Objective, search_box
-from compare.benchmark.provenance import code_digest
+from compare.benchmark.records.provenance import code_digest
 from compare.report.style import BLUE, GREY, ORANGE, PURPLE, VERMILION, styled
 from compare.screen import table
-from compare.studies.centred_functions import DIM, FUNCTIONS, HALF
-from compare.studies.origin_shift import COORDINATES, seen_in
+from compare.studies.drawn_to_zero.centred_functions import DIM, FUNCTIONS, HALF
+from compare.studies.drawn_to_zero.origin_shift import COORDINATES, seen_in
 from compare.studies.study import Call, Study, optima_of
 from formulations import Problem, load
 from formulations.problem.arrays import Array

@@ -30,7 +30,7 @@ _ALWAYS = (minimise.__module__, Objective.__module__)
 
 @dataclass(frozen=True, slots=True)
 class Provenance:
-    """What a row depends on beside its run. Its fields are columns of `compare.benchmark.rows.Row`."""
+    """What a row depends on beside its run. Its fields are columns of `compare.benchmark.records.rows.Row`."""
 
     library: str
     parameters: str

@@ -1,0 +1,172 @@
+"""``plan``: the fastest motion through the waypoints of a problem, with its distance from the proved bound."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from dataclasses import dataclass
+from pathlib import Path
+from typing import TYPE_CHECKING
+
+from formulations.motion.picture import motion_picture
+from formulations.motion.trajectory import Trajectory
+from formulations.motion.verdict import Verdict
+from formulations.optima.at_rate.export import Export, check_export, export_motion
+from formulations.optima.free_form import FreeForm, free_form
+from formulations.problem.conditions import Conditions
+from formulations.problem.errors import InputError
+from formulations.problem.problem import Problem
+from formulations.proofs.every_motion.bound import FreeFormBound, free_form_bound
+
+if TYPE_CHECKING:
+    from matplotlib.figure import Figure
+
+
+@dataclass(frozen=True, repr=False)
+class PlannedMotion:
+    """The fastest motion found, verified, and what no motion can beat.
+
+    Attributes
+    ----------
+    problem : Problem
+    found : FreeForm
+        The motion and how it was found.
+    proof : FreeFormBound or None
+        The lower bound; None where the conditions ask for what it does not hold for.
+    """
+
+    problem: Problem
+    found: FreeForm
+    proof: FreeFormBound | None
+
+    @property
+    def seconds(self) -> float:
+        """Time of the motion [s]."""
+        return self.found.seconds
+
+    @property
+    def bound(self) -> float | None:
+        """Certified lower bound: no motion takes less [s]. None without a proof."""
+        return None if self.proof is None else self.proof.seconds
+
+    @property
+    def gap(self) -> float | None:
+        """How far the motion is from the bound, relative: seconds / bound - 1. None without a proof."""
+        if self.bound is None:
+            return None
+        return self.seconds / self.bound - 1.0 if self.bound > 0.0 else 0.0
+
+    @property
+    def trajectory(self) -> Trajectory:
+        """The motion as polynomials; raises InputError where no joint moves."""
+        if self.found.trajectory is None:
+            raise InputError(f"{self.problem.name}: no joint moves, so there is no motion")
+        return self.found.trajectory
+
+    @property
+    def verdict(self) -> Verdict | None:
+        """What the independent check found; None where no joint moves."""
+        return self.found.verdict
+
+    def to_csv(self, path: str | Path, *, rate: float | None = None) -> Export:
+        """Write the motion for a controller; the file is read back and judged before it gets its name.
+
+        Parameters
+        ----------
+        path : str or Path
+            Ends in .csv.
+        rate : float, optional
+            Points per second [1/s]. Left out: points where the jerk switches.
+
+        Returns
+        -------
+        Export
+            What was written, and what the points cost.
+
+        Raises
+        ------
+        InputError
+            For another suffix, a rate that cannot be, or a file that cannot be written.
+        NoFeasibleMotion
+            The points are too coarse; the message says at which rate they keep the limits.
+        """
+        if Path(path).suffix.lower() != ".csv":
+            raise InputError(f"path: {path} does not end in .csv; export_motion writes other formats")
+        check_export(path, self.problem, rate, self.found.conditions)
+        return export_motion(
+            path, self.problem, self.trajectory, rate, conditions=self.found.conditions
+        )
+
+    def plot(self) -> Figure:
+        """Draw position to jerk of each joint, with limits and units.
+
+        Returns
+        -------
+        Figure
+            Of matplotlib; ``figure.savefig(path)`` writes it, ``plt.show()`` shows it.
+        """
+        return motion_picture(self.problem, self.trajectory, repr(self))
+
+    def __repr__(self) -> str:
+        words = f"{self.problem.name}: {self.seconds:.9g} s"
+        if self.bound is not None:
+            words += f", no motion takes less than {self.bound:.9g} s (gap {self.gap:.2g})"
+        return f"{words}, verified"
+
+
+def plan(
+    problem: Problem,
+    *,
+    conditions: Conditions | None = None,
+    gap: float = 1e-3,
+    bound: bool = True,
+    progress: Callable[[str], None] | None = None,
+) -> PlannedMotion:
+    """Find the fastest motion through the waypoints, and prove how much faster one could be.
+
+    Parameters
+    ----------
+    problem : Problem
+        Waypoints and limits.
+    conditions : Conditions, optional
+        Stops, passage times, a total time, velocities at the ends, limits of single segments. The bound is
+        that of the problem without them; for velocities at the ends and limits of segments there is none.
+    gap : float, default 1e-3
+        Relative gap to be reached.
+    bound : bool, default True
+        Whether to prove the lower bound too.
+    progress : callable, optional
+        Called with one line for each stage.
+
+    Returns
+    -------
+    PlannedMotion
+
+    Raises
+    ------
+    InputError
+        For conditions that do not fit the problem.
+    NoFeasibleMotion
+        No motion was found that keeps what was asked for.
+
+    Examples
+    --------
+    >>> import formulations as f
+    >>> motion = f.plan(f.Problem([[0], [90]], {"velocity": 90, "acceleration": 90}, unit="deg"))
+    >>> print(motion)
+    problem: 2 s, no motion takes less than 2 s (gap 0), verified
+    """
+    say = progress or (lambda line: None)
+    asked = conditions or Conditions()
+    found = free_form(
+        problem,
+        conditions=asked,
+        tolerance=gap,
+        progress=lambda what, seconds: say(f"{what}: {seconds:.6g} s"),
+    )
+    proof = None
+    others = asked.segment_limits or asked.start_velocity is not None or asked.end_velocity is not None
+    if bound and not others:
+        say("what no motion can beat")
+        upper = found.seconds if asked.none and found.trajectory is not None else None
+        proof = free_form_bound(problem, gap=gap, upper=upper)
+    return PlannedMotion(problem, found, proof)
