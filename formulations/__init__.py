@@ -4,9 +4,10 @@ from __future__ import annotations
 
 from formulations.climb import Ladder
 from formulations.families import FAMILIES
-from formulations.motion.files.motion_file import read_motion, write_motion
+from formulations.motion.files.motion_file import read_motion, read_points, write_motion
 from formulations.motion.trajectory import Trajectory
 from formulations.motion.verdict import Verdict, check
+from formulations.optima.at_rate.export import Export, export_motion
 from formulations.optima.family.optimum import (
     FamilyOptimum,
     each_joint_alone,
@@ -30,6 +31,7 @@ __all__ = [
     "REFERENCES",
     "RUNGS",
     "Conditions",
+    "Export",
     "FamilyBound",
     "FamilyOptimum",
     "FreeForm",
@@ -48,6 +50,7 @@ __all__ = [
     "Verdict",
     "check",
     "each_joint_alone",
+    "export_motion",
     "family_bound",
     "family_optimum",
     "free_form",
@@ -58,6 +61,7 @@ __all__ = [
     "parse",
     "plan",
     "read_motion",
+    "read_points",
     "robot_of",
     "waypoints_of",
     "write_motion",

@@ -46,7 +46,18 @@ FORMATS = (CSV, JSON, YAML, NPZ)
 
 
 def is_pieces(path: str | Path) -> bool:
-    """Whether a file of this name holds exact pieces."""
+    """Whether a file of this name holds exact pieces.
+
+    Parameters
+    ----------
+    path : str or Path
+        The file; it is not touched.
+
+    Returns
+    -------
+    bool
+        By the end of its name, ``.pieces.json``.
+    """
     return Path(path).name.lower().endswith(PIECES)
 
 

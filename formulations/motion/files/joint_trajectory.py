@@ -36,7 +36,18 @@ _PLURALS = {"position": "positions", "velocity": "velocities", "acceleration": "
 
 
 def write_json(points: MotionPoints) -> bytes:
-    """Write points as JSON; parameters as ``write_yaml``."""
+    """Write points as JSON.
+
+    Parameters
+    ----------
+    points : MotionPoints
+        The points, checked.
+
+    Returns
+    -------
+    bytes
+        The file, a line per point; times are rounded to a nanosecond.
+    """
     names = _names(points)
     rows = _rows(
         points, b'{"%s": [', b', "%s": [', b'], "time_from_start": {"sec": ', b', "nanosec": ', b"}},\n"
@@ -92,7 +103,27 @@ def _rows(
 
 
 def read_json(data: bytes, file: str, *, records: bool = True) -> MotionPoints:
-    """Read points from JSON; parameters as ``read_yaml``."""
+    """Read points from JSON.
+
+    Parameters
+    ----------
+    data : bytes
+        A file.
+    file : str
+        Its name, for messages.
+    records : bool
+        Whether points that are written alike may be read at once.
+
+    Returns
+    -------
+    MotionPoints
+        Not checked yet.
+
+    Raises
+    ------
+    InputError
+        Names the key.
+    """
     return _read(data, file, parse_json, json_records if records else None)
 
 

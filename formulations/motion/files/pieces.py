@@ -31,7 +31,18 @@ _HEAD = 100_000  # bytes in which the pieces must begin
 
 
 def holds_pieces(data: bytes) -> bool:
-    """Whether a JSON file holds pieces, rather than points."""
+    """Whether a JSON file holds pieces, rather than points.
+
+    Parameters
+    ----------
+    data : bytes
+        The file.
+
+    Returns
+    -------
+    bool
+        Whether the key ``pieces`` is among its first 100,000 bytes.
+    """
     return _PIECES.search(data, 0, _HEAD) is not None
 
 

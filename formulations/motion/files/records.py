@@ -65,7 +65,20 @@ class Records:
 
 
 def require_small(data: bytes, file: str) -> None:
-    """Refuse a large file whose points are not written alike: each value of it would be an object."""
+    """Refuse a large file whose points are not written alike: each value of it would be an object.
+
+    Parameters
+    ----------
+    data : bytes
+        The file.
+    file : str
+        Its name, for messages.
+
+    Raises
+    ------
+    InputError
+        It has more than 10,000,000 bytes.
+    """
     if len(data) > _LARGEST_IRREGULAR:
         raise InputError(
             f"{file}: {len(data)} bytes; points that do not all state the same, written alike, are read "
@@ -74,7 +87,18 @@ def require_small(data: bytes, file: str) -> None:
 
 
 def json_records(data: bytes) -> Records | None:
-    """Split a JointTrajectory in JSON; None where its points are not written alike."""
+    """Split a JointTrajectory in JSON.
+
+    Parameters
+    ----------
+    data : bytes
+        The file.
+
+    Returns
+    -------
+    Records or None
+        None where its points are not written alike.
+    """
     found = _FIRST_OF_JSON.search(data, 0, _HEAD)
     if found is None:
         return None
@@ -89,7 +113,18 @@ def json_records(data: bytes) -> Records | None:
 
 
 def yaml_records(data: bytes) -> Records | None:
-    """Split a JointTrajectory in YAML with a block per point; None where they are not written alike."""
+    """Split a JointTrajectory in YAML with a block per point.
+
+    Parameters
+    ----------
+    data : bytes
+        The file.
+
+    Returns
+    -------
+    Records or None
+        None where its points are not written alike.
+    """
     found = _FIRST_OF_YAML.search(data, 0, _HEAD)
     if found is None:
         return None
@@ -99,7 +134,18 @@ def yaml_records(data: bytes) -> Records | None:
 
 
 def csv_records(data: bytes) -> Records | None:
-    """Split a CSV file behind its first line; None where its rows are not written alike."""
+    """Split a CSV file behind its first line.
+
+    Parameters
+    ----------
+    data : bytes
+        The file.
+
+    Returns
+    -------
+    Records or None
+        None where its rows are not written alike.
+    """
     head = data.find(b"\n", 0, _HEAD) + 1
     end = data.find(b"\n", head, head + _SHORT)
     if not head or end <= head:

@@ -166,7 +166,7 @@ def export_motion(
         The points are too coarse; the message says at which rate they keep the limits, and nothing is
         written.
     """
-    names = tuple(getattr(problem, "names", None) or ()) if names is None else tuple(names)
+    names = problem.names if names is None else tuple(names)
     exact = format_to_write(path) is None
     margin, rounding_up = 0.0, 0.0
     if exact and rate is None:

@@ -99,7 +99,7 @@ def test_every_export_keeps_the_limits(seed: int, tmp_path: Path) -> None:
             assert verdict.feasible, (suffix, rate, verdict.faults)
             assert back.seconds == pytest.approx(written.seconds, rel=1e-12)
             assert written.verdict.feasible
-            assert 0.0 <= written.cost <= (1e-3 * fastest.seconds if rate is None else 2.0 * 3 / rate)
+            assert 0.0 <= written.cost <= (2e-3 * fastest.seconds if rate is None else 2.0 * 3 / rate)
             if suffix != ".pieces.json":
                 assert (factors(path, problem) <= 1.0 + 1e-8).all(), (suffix, rate)
             if rate is not None:
