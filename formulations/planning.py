@@ -7,6 +7,8 @@ from dataclasses import dataclass
 from pathlib import Path
 from typing import TYPE_CHECKING
 
+import numpy as np
+
 from formulations.motion.picture import motion_picture
 from formulations.motion.trajectory import Trajectory
 from formulations.motion.verdict import Verdict
@@ -53,7 +55,7 @@ class PlannedMotion:
         """How far the motion is from the bound, relative: seconds / bound - 1. None without a proof."""
         if self.bound is None:
             return None
-        return self.seconds / self.bound - 1.0 if self.bound > 0.0 else 0.0
+        return max(self.seconds / self.bound - 1.0, 0.0) if self.bound > 0.0 else 0.0
 
     @property
     def trajectory(self) -> Trajectory:
@@ -155,6 +157,10 @@ def plan(
     >>> print(motion)
     problem: 2 s, no motion takes less than 2 s (gap 0), verified
     """
+    if not isinstance(problem, Problem):
+        raise InputError(f"problem: expected a Problem (load reads one), got {problem!r:.50}")
+    if not (np.isfinite(gap) and gap > 0.0):
+        raise InputError(f"gap: {gap:g} is not positive")
     say = progress or (lambda line: None)
     asked = conditions or Conditions()
     found = free_form(

@@ -20,7 +20,7 @@ from formulations.problem.joint_words import (
     shown_unit,
 )
 from formulations.problem.limits import LIMITED, Limits, numbers
-from formulations.problem.toml_values import known_keys
+from formulations.problem.toml_values import known_keys, read_choice, read_text
 
 __all__ = ["POSITION_SLACK", "POSITION_TOLERANCE", "Limits", "Problem"]
 
@@ -112,10 +112,14 @@ class Problem:
             )
         if len(points) < 2:
             raise InputError(f"waypoints: at least two are needed, got {len(points)}")
+        if family is not None:
+            from formulations.families import FAMILIES  # they are about problems themselves
+
+            read_choice("family", family, FAMILIES)
         dof = points.shape[1]
         angle = read_angle_unit("unit", unit)
         values: dict[str, Any] = {
-            "name": name,
+            "name": read_text("name", name),
             "family": family or ("3-5-3" if len(points) == 4 else "4-3-4"),
             "title": title or name,
             "source": source,

@@ -113,6 +113,9 @@ class FamilyBound:
         """
         return self.seconds * (1.0 - 1.001 * TOLERANCE)
 
+    def __repr__(self) -> str:
+        return f"FamilyBound({self.seconds:.9g} s, gap {self.gap:.2g}, {self.outcome})"
+
 
 def family_bound(
     problem: Problem,

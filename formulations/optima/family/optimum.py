@@ -73,6 +73,9 @@ class FamilyOptimum:
         """Number of starts that ended within 1e-7 of the best, relatively."""
         return sum(start.seconds <= self.seconds * (1.0 + 1e-7) for start in self.starts)
 
+    def __repr__(self) -> str:
+        return f"FamilyOptimum({self.problem.name!r}: {self.seconds:.9g} s, family {self.family})"
+
 
 def family_optimum(
     problem: Problem,

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import re
 from importlib.resources import files
+from pathlib import Path
 
 import numpy as np
 from hypothesis import given, settings
@@ -107,3 +108,31 @@ def test_mutated_shipped_cases_give_a_problem_or_one_line(data: st.DataObject) -
 @given(text=st.text(max_size=200))
 def test_random_text_gives_a_problem_or_one_line(text: str) -> None:
     problem_or_one_line(text)
+
+
+ROBOT = [str(Path(__file__).parents[2] / "data" / "fuzz" / name) for name in ("arm.urdf", "arm.srdf")]
+ROBOT += ["moveit.limits.yaml", "plain.txt", "table.csv", ".", "", "\\u0000", "nowhere.toml"]
+PATHS = st.sampled_from(ROBOT).map('"{}"'.format)
+JOINTS = st.lists(st.sampled_from(["a", "b", "a b", "", "joint1", "joint2"]), max_size=3).map(
+    lambda names: "[" + ", ".join(f'"{name}"' for name in names) + "]"
+)
+BY_JOINT = st.dictionaries(
+    st.sampled_from(["a", "b", "joint1", "c"]), st.one_of(SCALARS, st.just("[-3, 3]")), max_size=3
+).map(lambda table: "{" + ", ".join(f"{key} = {value}" for key, value in table.items()) + "}")
+ROBOT_TABLE = {
+    **dict.fromkeys(["robot", "srdf", "limits_file", "waypoints_file"], st.one_of(PATHS, VALUES)),
+    **dict.fromkeys(["joints", "prismatic", "unlimited"], st.one_of(JOINTS, VALUES)),
+    **dict.fromkeys(["group", "base", "tip", "length", "velocity_scaling", "jerk_scaling"], VALUES),
+    **dict.fromkeys([f"limits.{key}" for key in LIMIT_KEYS[1:5]], st.one_of(BY_JOINT, VALUES)),
+}
+
+
+@given(data=st.data())
+@settings(max_examples=600, deadline=None)
+def test_random_keys_of_a_robot_give_a_problem_or_one_line(data: st.DataObject) -> None:
+    keys = data.draw(st.lists(st.sampled_from(sorted(ROBOT_TABLE)), unique=True, max_size=5))
+    table = {"waypoints": "[[0, 0], [1, 1]]", "limits.velocity": "1", "joints": '["a", "b"]'}
+    table |= {key: data.draw(ROBOT_TABLE[key], label=key) for key in keys}
+    for key in data.draw(st.lists(st.sampled_from(sorted(table)), max_size=2)):
+        table.pop(key, None)
+    problem_or_one_line("\n".join(f"{key} = {value}" for key, value in table.items()))

@@ -9,7 +9,7 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
-from formulations import CASES, InputError, Limits, Problem, load
+from formulations import CASES, InputError, Limits, Problem, load, plan
 
 DEG = math.pi / 180.0
 NAMES = ("shoulder", "elbow")
@@ -78,6 +78,10 @@ def test_a_prismatic_joint_stays_in_metres() -> None:
         (lambda: Problem([[0, 0], [1, 1]], {"velocity": 1}, names=("a", "a")), "names: 'a' is given twice"),
         (lambda: Problem([[0, 0], [1, 1]], {"velocity": 1}, names="ab"), "names: expected a list"),
         (lambda: Problem([[0, 0], [1, 1]], {"velocity": 1}, units=("rad", "mm")), "units: 'mm' is not one of"),
+        (lambda: Problem([[0, 0], [1, 1]], {"velocity": 1}, family="5-3"), "family: '5-3' is not one of 3-5-3"),
+        (lambda: Problem([[0, 0], [1, 1]], {"velocity": 1}, name=3), "name: expected text, got 3"),
+        (lambda: plan("sr4c"), "problem: expected a Problem (load reads one), got 'sr4c'"),
+        (lambda: plan(load("sr4c"), gap=0), "gap: 0 is not positive"),
         (lambda: Problem([[0, 0], [1, 1]], {"velocity": 1}, unit="grad"), "unit: 'grad' is not one of"),
         (lambda: Problem([[0, 0], [1, 1]], {"velocty": 1}), "did you mean velocity"),
         (lambda: Problem([[0, 0], [1, 1]], {"jerk": 1}), "limits.velocity: missing"),
