@@ -16,7 +16,8 @@ from formulations.references.copp_ import Profile, profile_on
 from formulations.retiming.path import Path
 
 RATE = 1000.0  # points per second of a motion of TOPP-RA
-_NODES = 100  # pieces of the slow motion that COPP starts from
+_NODES, _MOST_NODES = 100, 300  # pieces of the slow motion that COPP starts from: two for each point
+_FINE = 1e-4  # of the path's length, to which a path has so many points
 _GRIDS = (3, 6)  # intervals per piece
 
 logging.getLogger("toppra").setLevel(logging.CRITICAL)  # its failures are reported in words
@@ -117,7 +118,8 @@ def slow_motion(path: Path, problem: Problem) -> Trajectory:
     -------
     Trajectory
     """
-    tau = np.linspace(0.0, 1.0, _NODES + 1)
+    nodes = min(max(_NODES, 2 * len(path.simplified(_FINE * path.lengths[-1]))), _MOST_NODES)
+    tau = np.linspace(0.0, 1.0, nodes + 1)
     total = path.lengths[-1]
     s = total * tau**3 * (10.0 - 15.0 * tau + 6.0 * tau**2)
     speed = total * 30.0 * tau**2 * (1.0 - tau) ** 2

@@ -7,6 +7,7 @@ from functools import cached_property
 
 import numpy as np
 from scipy.interpolate import BSpline, make_interp_spline
+from scipy.spatial import cKDTree
 
 from formulations.motion.files.motion_points import MotionPoints
 from formulations.motion.trajectory import Trajectory
@@ -19,6 +20,10 @@ _SECTIONS = 40
 _SAMPLES = 16  # per piece of a motion, where the search for the largest distance starts; two where
 _MANY = 1000  # there are as many pieces as this
 _PLACES = 100  # local maxima that are looked at closely
+_FEW = 100  # segments of a path that are all looked at for each place of a motion
+_SHORT = 5000  # pieces that a path of more is cut into at least
+_NEAREST = 8  # of these, that are looked at; a farther one is nearer by no more than its length
+_DENSE = 20_000  # pieces of a motion that need no points between
 _CHORDS = 200  # of a motion, from which the points of a path are measured
 
 
@@ -63,7 +68,8 @@ class Path:
             names = motion.names
             motion = motion.positions if motion.velocities is None else motion.motion()
         if isinstance(motion, Trajectory):
-            steps = np.arange(_BETWEEN) / _BETWEEN
+            between = _BETWEEN if len(motion.durations) < _DENSE else 1
+            steps = np.arange(between) / between
             times = (motion.breaks[:-1, None] + motion.durations[:, None] * steps).ravel()
             motion = motion.at(np.append(times, motion.seconds))
         points = np.asarray(motion, dtype=np.float64)
@@ -71,11 +77,10 @@ class Path:
         if not reach > 0.0:
             raise InputError("motion: no joint moves, so there is no path")
         # points within rounding of each other have no direction between them
-        kept = [0]
-        for k in range(1, len(points)):
-            if np.abs(points[k] - points[kept[-1]]).max() > 1e-9 * reach:
-                kept.append(k)
-        return Path(points[kept], names)
+        least = 1e-9 * reach
+        kept = np.flatnonzero(np.append(True, np.abs(np.diff(points, axis=0)).max(axis=1) > least))
+        points = points[kept]
+        return Path(points, names)
 
     @cached_property
     def lengths(self) -> Array:
@@ -211,14 +216,35 @@ class Path:
 
     def _away(self, positions: Array) -> Array:
         """Distance of positions (m, dof) from the polyline, (m,)."""
-        found = np.empty(len(positions))
-        block = max(1, 2_000_000 // (len(self.points) * self.points.shape[1]))
-        for first in range(0, len(positions), block):
-            some = positions[first : first + block]
-            found[first : first + block] = _to_segments(some, self.points[:-1], self.points[1:]).min(
-                axis=1
-            )
-        return found
+        starts, ends, tree = self._segments
+        if tree is None:
+            return np.asarray(_to_segments(positions, starts, ends).min(axis=1))
+        # of many short segments, those with the nearest middles
+        _, near = tree.query(positions, k=_NEAREST)
+        found = [_to_segment(positions, starts[k], ends[k]) for k in near.T]
+        return np.asarray(np.min(found, axis=0))
+
+    @cached_property
+    def _segments(self) -> tuple[Array, Array, cKDTree | None]:
+        """Starts and ends of the segments, and where they are many, cut short, a tree of their middles."""
+        starts, ends = self.points[:-1], self.points[1:]
+        if len(starts) <= _FEW:
+            return starts, ends, None
+        lengths = np.diff(self.lengths)
+        cuts = np.ceil(lengths / (self.lengths[-1] / _SHORT)).astype(np.int64)
+        which = np.repeat(np.arange(len(starts)), cuts)
+        place = (np.arange(len(which)) - np.repeat(np.cumsum(cuts) - cuts, cuts))[:, None]
+        step = ((ends - starts) / cuts[:, None])[which]
+        starts = starts[which] + place * step
+        return starts, starts + step, cKDTree(starts + 0.5 * step)
+
+
+def _to_segment(positions: Array, starts: Array, ends: Array) -> Array:
+    """Distance of each position (m, dof) from its segment (m, dof), (m,)."""
+    along = ends - starts
+    squared = np.maximum(np.square(along).sum(axis=1), 1e-300)
+    share = np.clip(((positions - starts) * along).sum(axis=1) / squared, 0.0, 1.0)
+    return np.asarray(np.linalg.norm(positions - starts - share[:, None] * along, axis=1))
 
 
 def _to_segments(positions: Array, starts: Array, ends: Array) -> Array:

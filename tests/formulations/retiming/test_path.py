@@ -68,3 +68,22 @@ def test_the_path_of_points_with_velocities_is_what_a_controller_makes_of_them()
         Path.of(still)
     repeated = np.array([[0.0], [0.0], [0.5], [0.5], [1.0]])
     assert Path.of(repeated).points.ravel().tolist() == [0.0, 0.5, 1.0]
+
+
+def test_a_path_of_many_points_is_measured_as_one_of_few() -> None:
+    rng = np.random.default_rng(3)
+    u = np.sort(rng.uniform(0.0, 1.0, 400))
+    points = np.stack([np.sin(3.0 * u), np.cos(5.0 * u), u], axis=1)
+    points[200:] += 0.7  # a long straight line between two dense parts
+    away = rng.uniform(-1.0, 2.0, (40, 3))
+    for scale in (1.0, 1e-3):
+        places = points[rng.integers(0, 400, 40)] + scale * away
+        # each place as a motion that stands there
+        for place in places:
+            still = Trajectory(np.array([1.0]), np.stack([place, 1e-12 * place], axis=1)[None])
+            expected = min(
+                from_segment(place, a, b) for a, b in pairwise(points) if np.linalg.norm(b - a) > 0.0
+            )
+            assert Path(points).farthest(still)[1] == pytest.approx(
+                expected, abs=1e-3 * expected + 1e-9
+            )
