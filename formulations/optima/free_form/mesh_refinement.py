@@ -19,10 +19,9 @@ import numpy as np
 from formulations.deadlines import NEVER, Deadline
 from formulations.motion.verdict import check
 from formulations.optima.free_form.ending import SearchEnded, SearchStatus
-from formulations.optima.free_form.faults import missed, outside
+from formulations.optima.free_form.faults import finite, missed, outside
 from formulations.optima.free_form.nlp import ipopt, slp
 from formulations.optima.free_form.nlp.arcs import ArcMotion
-from formulations.optima.free_form.nlp.assembly import assemble
 from formulations.optima.free_form.nlp.conditioned import ConditionedProblem
 from formulations.optima.free_form.nlp.program import FreeFormNLP, NLPSolution
 from formulations.optima.free_form.retiming import Refusal, retime
@@ -135,7 +134,9 @@ class MeshRefinement:
 
     def _judged(self, name: str, motion: ArcMotion) -> tuple[VerifiedMotion | None, str]:
         for attempt in range(_STRETCHES):
-            whole = assemble(self.task, motion)
+            whole = finite(self.task, motion)
+            if whole is None:
+                return None, "the numbers overflow"
             verdict = check(self.task.problem, whole, conditions=self.task.conditions)
             if verdict.feasible:
                 return VerifiedMotion(name, motion, whole, verdict), ""
@@ -317,12 +318,10 @@ class MeshRefinement:
         return motion
 
     def _go_on(self) -> None:
-        """End the search when its time is over."""
         if self.deadline.over:
             raise SearchEnded
 
     def _note(self, solution: NLPSolution, found: VerifiedMotion | None) -> None:
-        """Note how a solve of the final program ended, and whether its motion stands."""
         self.reason = "" if solution.converged else solution.status
         if solution.converged and found is not None:
             self.converged = min(self.converged, found.verdict.seconds)
