@@ -20,6 +20,7 @@ from formulations.optima.family.papers_rule import longest_segment
 from formulations.optima.free_form import free_form
 from formulations.problem.errors import InputError
 from formulations.problem.problem import Problem
+from formulations.problem.size import require_moderate
 from formulations.proofs.every_motion.bound import free_form_bound
 from formulations.proofs.family import family_bound
 from formulations.proofs.status import BoundStatus
@@ -91,6 +92,7 @@ def ladder(
     >>> found.rungs["free_form"].status.value
     'ok'
     """
+    require_moderate(problem)
     wanted = usual_rungs(problem) if rungs is None else with_needs(rungs)
     climb = Climb(problem, seed, certify, certificate, gap, Deadline(time_limit, stop))
     chosen = {key: rung for key, rung in RUNGS.items() if key in wanted}

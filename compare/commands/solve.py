@@ -64,9 +64,9 @@ def solve(
         Write the proof of free_form_lower, which holds for every motion.
     """
     problem = load(file)
-    wanted = usual_rungs(problem) if rungs is None else with_needs(rungs)
-    wanted = leave_out(wanted, without or ())
-    if not wanted:
+    chosen = usual_rungs(problem) if rungs is None else with_needs(rungs)
+    chosen = leave_out(chosen, without or ())
+    if not chosen:
         raise InputError("--without: no rung is left")
     if rungs is None and problem.n_segments > LARGE:
         print(
@@ -82,7 +82,7 @@ def solve(
             seed=seed,
             certificate=bool(certificate or motion_certificate),
             gap=gap,
-            rungs=wanted,
+            rungs=chosen,
             time_limit=time_limit,
             stop=stop,
             progress=stage,
