@@ -223,6 +223,7 @@ class MeshRefinement:
             if self.best is not None:
                 return []
         self._fastest_slowed(mesh)
+        self._go_on()
         if self.best is None and self.nearest is None:
             self._run(mesh, 1e-3)
         return ["not the smoothest motion: no solution of that program was found"]
@@ -248,7 +249,7 @@ class MeshRefinement:
         if inner.best is not None:
             motion = inner.best.motion
             factor = task.times[task.n_segments] / float(motion.times.sum())
-            if factor < 1.0 and len(task.times) == 1:
+            if factor < 1.0 and len(task.times) == 1 and not inner.ended:
                 self.nearest, self.missed = motion, missed(task, motion)
             found = self.offer("fastest, slowed down", motion.stretched(factor))
             if found is not None and inner.status(1e-3) is SearchStatus.OK:

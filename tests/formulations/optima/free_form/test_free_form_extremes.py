@@ -7,7 +7,7 @@ import warnings
 import numpy as np
 import pytest
 
-from formulations import Limits, NoFeasibleMotion, Problem, check, free_form, free_form_bound
+from formulations import Limits, Problem, check, free_form, free_form_bound
 
 POINTS = np.cumsum(np.random.default_rng(0).uniform(-0.6, 0.6, (5, 3)), axis=0)
 
@@ -30,7 +30,9 @@ def test_extremes_are_answered_in_words(limits: tuple[float, float, float], size
         assert "not set" not in words
 
 
-def test_numbers_that_overflow_are_refused_in_one_line() -> None:
+def test_times_whose_cubes_overflow_are_no_traceback() -> None:
     problem = Problem.of(POINTS * 1e100, Limits.of(1e-12, 8.0, 60.0, dof=3))
-    with pytest.raises(NoFeasibleMotion, match="too far apart for double precision"):
-        free_form(problem, time_limit=10.0)
+    found = free_form(problem, time_limit=10.0)
+    assert found.trajectory is not None
+    assert check(problem, found.trajectory).feasible
+    assert found.seconds > 1e112  # no shorter than displacement over velocity
