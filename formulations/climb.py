@@ -9,6 +9,7 @@ from collections.abc import Callable, Mapping
 from dataclasses import dataclass, field
 from typing import Any
 
+from formulations.deadlines import NEVER, Deadline
 from formulations.motion.trajectory import Trajectory
 from formulations.motion.verdict import check
 from formulations.optima.family.optimum import FamilyOptimum
@@ -57,7 +58,7 @@ class Ladder:
     ----------
     problem : Problem
     rungs : dict of str to RungResult
-        In the order of ``RUNGS``.
+        Those asked for, in the order of ``RUNGS``.
     durations : dict of str to Array, shape (n_segments,)
         Durations of the rungs that have them [s].
     trajectories : dict of str to Trajectory
@@ -136,6 +137,8 @@ class Climb:
         Whether proofs are to be recorded.
     gap : float
         Relative gap aimed at between ``free_form`` and ``free_form_lower``.
+    deadline : Deadline
+        Rungs that have not begun when it is over are not climbed, and say so.
     results, durations, trajectories, optimum, alone, bound, free_form, free_form_bound
         As in ``Ladder``.
     """
@@ -145,6 +148,7 @@ class Climb:
     certify: bool = True
     certificate: bool = False
     gap: float = 1e-3
+    deadline: Deadline = NEVER
     results: dict[str, RungResult] = field(default_factory=dict)
     durations: dict[str, Array] = field(default_factory=dict)
     trajectories: dict[str, Trajectory] = field(default_factory=dict)
@@ -165,11 +169,16 @@ class Climb:
         Returns
         -------
         float or None
-            Seconds; None if the rung has no number.
+            Seconds; None if the rung has no number, or was not asked for.
         """
-        return self.results[key].seconds
+        return self.results[key].seconds if key in self.results else None
 
-    def run(self, rungs: Mapping[str, Rung], progress: Callable[[str], None]) -> Ladder:
+    def run(
+        self,
+        rungs: Mapping[str, Rung],
+        progress: Callable[[str], None],
+        finished: Callable[[RungResult], None] = lambda result: None,
+    ) -> Ladder:
         """Climb all rungs, each after those that it looks at.
 
         Parameters
@@ -178,13 +187,15 @@ class Climb:
             Entries by key, in the order of the answer.
         progress : callable
             Called with the key of each rung before it is climbed.
+        finished : callable
+            Called with the result of each rung as soon as it is there.
 
         Returns
         -------
         Ladder
         """
         for rung in rungs.values():
-            self._climb(rung, rungs, progress)
+            self._climb(rung, rungs, progress, finished)
         return Ladder(
             self.problem,
             {key: self.results[key] for key in rungs},
@@ -197,11 +208,18 @@ class Climb:
             self.free_form_bound,
         )
 
-    def _climb(self, rung: Rung, rungs: Mapping[str, Rung], progress: Callable[[str], None]) -> None:
+    def _climb(
+        self,
+        rung: Rung,
+        rungs: Mapping[str, Rung],
+        progress: Callable[[str], None],
+        finished: Callable[[RungResult], None],
+    ) -> None:
         if rung.key in self.results:
             return
         for key in rung.after:
-            self._climb(rungs[key], rungs, progress)
+            if key in rungs:
+                self._climb(rungs[key], rungs, progress, finished)
         progress(rung.key)
         started = time.perf_counter()
         outcome = self._judged(rung, self._found(rung))
@@ -211,6 +229,7 @@ class Climb:
         self.results[rung.key] = RungResult(
             rung.key, rung.kind, outcome.status, outcome.seconds, certified, runtime, outcome.note
         )
+        finished(self.results[rung.key])
         if outcome.durations is not None:
             self.durations[rung.key] = outcome.durations
         if outcome.trajectory is not None:
@@ -218,6 +237,9 @@ class Climb:
 
     def _found(self, rung: Rung) -> Outcome:
         """Call the function of a rung; a refusal or a failure is a status with its reason."""
+        if self.deadline.over:
+            ended = "it was interrupted" if self.deadline.interrupted else "the time limit was over"
+            return Outcome.failed(f"{ended} before it began")
         try:
             if rung.takes is Takes.PROBLEM:
                 return rung.find(self.problem)

@@ -11,8 +11,9 @@ from dataclasses import dataclass, replace
 
 import numpy as np
 
+from formulations.deadlines import NEVER, Deadline
 from formulations.motion.verdict import QUANTITIES
-from formulations.optima.free_form import FreeForm, free_form
+from formulations.optima.free_form import FreeForm, SearchStatus, free_form
 from formulations.problem.arrays import Array
 from formulations.problem.joint_words import joint_label
 from formulations.problem.problem import Limits, Problem
@@ -120,7 +121,14 @@ class Diagnosis:
         return row
 
 
-def diagnose(problem: Problem, found: FreeForm, *, more: float = 0.1, top: int = 4) -> Diagnosis:
+def diagnose(
+    problem: Problem,
+    found: FreeForm,
+    *,
+    more: float = 0.1,
+    top: int = 4,
+    deadline: Deadline = NEVER,
+) -> Diagnosis:
     """Share out the time of a free-form motion among the limits, and plan again with raised ones.
 
     Parameters
@@ -132,6 +140,8 @@ def diagnose(problem: Problem, found: FreeForm, *, more: float = 0.1, top: int =
         By how much a limit is raised, relative.
     top : int, default 4
         Number of limits to raise, one at a time, those with the largest shares first.
+    deadline : Deadline
+        What a raised limit saves is left out where the time is over before it is known.
 
     Returns
     -------
@@ -167,8 +177,11 @@ def diagnose(problem: Problem, found: FreeForm, *, more: float = 0.1, top: int =
     worst = np.argsort(-per_limit, axis=None, kind="stable")[:top]
     savings = []
     for o, j in zip(*np.unravel_index(worst, per_limit.shape), strict=True):
-        if per_limit[o, j] > _LEAST * found.seconds:
-            faster = free_form(_raised(problem, int(o), int(j), 1.0 + more))
+        if per_limit[o, j] > _LEAST * found.seconds and not deadline.over:
+            raised = _raised(problem, int(o), int(j), 1.0 + more)
+            faster = free_form(raised, time_limit=deadline.left, stop=deadline.stop)
+            if faster.status in (SearchStatus.TIME_LIMIT, SearchStatus.INTERRUPTED):
+                break
             savings.append(Saving(int(j), QUANTITIES[int(o) + 1], more, found.seconds - faster.seconds))
     savings.sort(key=lambda saving: -saving.seconds)
     left = found.seconds - float(held.sum())

@@ -6,17 +6,21 @@ others (the optimum and bound of the family, those of every motion) are found by
 
 from __future__ import annotations
 
-from collections.abc import Callable
+from collections.abc import Callable, Collection
 
 import numpy as np
 
-from formulations.climb import Climb, Ladder
+from formulations.climb import Climb, Ladder, RungResult
+from formulations.deadlines import Deadline
+from formulations.deadlines.deadline import Stop
 from formulations.families import FAMILIES
 from formulations.motion.verdict import check
 from formulations.optima.family.optimum import each_joint_alone, family_optimum
 from formulations.optima.family.papers_rule import longest_segment
 from formulations.optima.free_form import free_form
+from formulations.problem.errors import InputError
 from formulations.problem.problem import Problem
+from formulations.problem.size import require_moderate
 from formulations.proofs.every_motion.bound import free_form_bound
 from formulations.proofs.family import family_bound
 from formulations.proofs.status import BoundStatus
@@ -26,6 +30,8 @@ from formulations.references.reference import Outcome, Rung, RungKind, Takes
 from formulations.references.ruckig_ import RUCKIG_END_TO_END, RUCKIG_STOP_AND_GO
 from formulations.references.toppra_ import TOPPRA_CUBIC, TOPPRA_FAMILY_PATH
 
+LARGE = 30  # segments; of larger problems the rungs of the family are computed on demand
+_SHARE = 0.5  # of the time that is left, for one optimum
 _GAP, _TIME_LIMIT = 1e-7, 20.0  # of the certified bound of the family; s
 
 
@@ -36,7 +42,11 @@ def ladder(
     certify: bool = True,
     certificate: bool = False,
     gap: float = 1e-3,
+    rungs: Collection[str] | None = None,
+    time_limit: float | None = None,
+    stop: Stop | None = None,
     progress: Callable[[str], None] | None = None,
+    finished: Callable[[RungResult], None] | None = None,
 ) -> Ladder:
     """Compute every bound of one problem.
 
@@ -54,13 +64,23 @@ def ladder(
         Whether to keep the proofs, in ``bound.certificate`` and ``free_form_bound.certificate``.
     gap : float
         Relative gap aimed at between ``free_form`` and ``free_form_lower``.
+    rungs : collection of str, optional
+        Keys of ``RUNGS``; those that they need are computed too. By default ``usual_rungs``: all, and of
+        large problems all but those of the family.
+    time_limit : float, optional [s]
+        For all rungs together. The searches then end with what they have, and a rung that has not begun
+        says so.
+    stop : callable, optional
+        Asked again and again whether to end now.
     progress : callable, optional
         Called with the key of each rung before it is computed.
+    finished : callable, optional
+        Called with the result of each rung as soon as it is there.
 
     Returns
     -------
     Ladder
-        One result per entry of ``RUNGS``; ``to_json`` makes it plain data.
+        One result per rung; ``to_json`` makes it plain data.
 
     Examples
     --------
@@ -72,8 +92,70 @@ def ladder(
     >>> found.rungs["free_form"].status.value
     'ok'
     """
-    climb = Climb(problem, seed, certify, certificate, gap)
-    return climb.run(RUNGS, progress or (lambda key: None))
+    require_moderate(problem)
+    wanted = usual_rungs(problem) if rungs is None else with_needs(rungs)
+    climb = Climb(problem, seed, certify, certificate, gap, Deadline(time_limit, stop))
+    chosen = {key: rung for key, rung in RUNGS.items() if key in wanted}
+    return climb.run(chosen, progress or (lambda key: None), finished or (lambda result: None))
+
+
+def usual_rungs(problem: Problem) -> tuple[str, ...]:
+    """List the rungs that are computed where none are named.
+
+    The optimum of a spline family takes minutes beyond ``LARGE`` segments, and its bound does not get
+    near it. So of larger problems the rungs of the family are computed on demand only.
+
+    Parameters
+    ----------
+    problem : Problem
+
+    Returns
+    -------
+    tuple of str
+        Keys of ``RUNGS``.
+    """
+    return tuple(RUNGS) if problem.n_segments <= LARGE else without(RUNGS, ["family"])
+
+
+def with_needs(keys: Collection[str]) -> tuple[str, ...]:
+    """Add the rungs that the chosen ones cannot do without.
+
+    Parameters
+    ----------
+    keys : collection of str
+        Keys of ``RUNGS``.
+
+    Returns
+    -------
+    tuple of str
+        In the order of ``RUNGS``.
+
+    Raises
+    ------
+    InputError
+        If there is no such rung.
+    """
+    if unknown := [key for key in keys if key not in RUNGS]:
+        raise InputError(f"rungs: {unknown[0]!r} is not known (known: {', '.join(RUNGS)})")
+    wanted = {*keys, *(need for key in keys for need in RUNGS[key].needs)}
+    return tuple(key for key in RUNGS if key in wanted)
+
+
+def without(keys: Collection[str], left_out: Collection[str]) -> tuple[str, ...]:
+    """Leave rungs out, and all that need them.
+
+    Parameters
+    ----------
+    keys, left_out : collection of str
+        Keys of ``RUNGS``.
+
+    Returns
+    -------
+    tuple of str
+        In the order of ``RUNGS``.
+    """
+    gone = {key for key in RUNGS if {key, *RUNGS[key].needs} & set(left_out)}
+    return tuple(key for key in RUNGS if key in keys and key not in gone)
 
 
 def _free_form_lower(climb: Climb) -> Outcome:
@@ -83,7 +165,8 @@ def _free_form_lower(climb: Climb) -> Outcome:
         climb.problem,
         gap=climb.gap,
         upper=climb.seconds("free_form"),
-        time_limit=_TIME_LIMIT,
+        time_limit=climb.deadline.within(_TIME_LIMIT).left,
+        stop=climb.deadline.stop,
         record=climb.certificate,
     )
     climb.free_form_bound = found
@@ -103,7 +186,12 @@ def _free_form_lower(climb: Climb) -> Outcome:
 def _free_form(climb: Climb) -> Outcome:
     if not climb.problem.moving_joints:
         return Outcome.ok(0.0, note="nothing moves")
-    found = free_form(climb.problem, tolerance=climb.gap)
+    found = free_form(
+        climb.problem,
+        tolerance=climb.gap,
+        time_limit=_SHARE * climb.deadline.left,
+        stop=climb.deadline.stop,
+    )
     climb.free_form = found
     note = "; ".join([found.method, *found.notes])
     if found.status != "ok":
@@ -122,7 +210,12 @@ def _free_form(climb: Climb) -> Outcome:
 
 
 def _family(climb: Climb) -> Outcome:
-    optimum = family_optimum(climb.problem, seed=climb.seed)
+    optimum = family_optimum(
+        climb.problem,
+        seed=climb.seed,
+        time_limit=_SHARE * climb.deadline.left,
+        stop=climb.deadline.stop,
+    )
     verdict = optimum.verdict
     if not verdict.feasible:
         return Outcome.failed(f"did not pass the check: {verdict.faults[0]}")
@@ -131,7 +224,8 @@ def _family(climb: Climb) -> Outcome:
         verdict.seconds,
         durations=optimum.durations,
         trajectory=optimum.trajectory,
-        note=f"{optimum.family}; {optimum.agreeing_starts} of {len(optimum.starts)} starts agree",
+        note=f"{optimum.family}; {optimum.agreeing_starts} of {len(optimum.starts)} starts agree"
+        + ("; stopped before all starts had ended" if optimum.stopped else ""),
     )
 
 
@@ -143,7 +237,8 @@ def _family_lower(climb: Climb) -> Outcome:
     bound = family_bound(
         climb.problem,
         gap=_GAP,
-        time_limit=_TIME_LIMIT,
+        time_limit=climb.deadline.within(_TIME_LIMIT).left,
+        stop=climb.deadline.stop,
         optimum=climb.optimum,
         record=climb.certificate,
     )
@@ -167,7 +262,9 @@ def _family_lower(climb: Climb) -> Outcome:
 def _longest_segment(climb: Climb) -> Outcome:
     if climb.optimum is None:
         return Outcome.not_applicable("there is no family optimum")
-    climb.alone = each_joint_alone(climb.problem, seed=climb.seed)
+    climb.alone = each_joint_alone(
+        climb.problem, seed=climb.seed, time_limit=climb.deadline.left, stop=climb.deadline.stop
+    )
     moving = [optimum.durations for optimum in climb.alone if optimum is not None]
     if not moving:
         return Outcome.ok(climb.optimum.seconds, note="nothing moves")
@@ -221,6 +318,7 @@ RUNGS: dict[str, Rung] = {
             takes=Takes.CLIMB,
             certified=True,
             after=("family", "free_form_lower"),
+            needs=("family",),
         ),
         Rung(
             key="family",
@@ -240,6 +338,7 @@ RUNGS: dict[str, Rung] = {
             takes=Takes.CLIMB,
             certified=True,
             after=("family",),
+            needs=("family",),
         ),
         TOPPRA_FAMILY_PATH,
         TOPPRA_CUBIC,

@@ -188,6 +188,12 @@ def _codings() -> Iterable[str]:
     return CODINGS
 
 
+def _rungs() -> Iterable[str]:
+    from formulations import RUNGS
+
+    return RUNGS
+
+
 def _choice(names: Callable[[], Iterable[str]]) -> Callable[[Any, Sequence[Token]], tuple[str, ...]]:
     return lambda kind, tokens: several(tokens[0].value, names())
 
@@ -285,6 +291,15 @@ Rate = Annotated[
     float | None,
     Parameter(name="--rate", metavar="HZ", validator=positive,
               help="Points per second in that file; where the jerk switches if left out."),
+]  # fmt: skip
+Rungs = Annotated[
+    tuple[str, ...] | None,
+    listed(_rungs, "The bounds to find, and those they need; all if left out, but those of the family only up"
+           " to 30 segments.", "--rungs"),
+]  # fmt: skip
+Without = Annotated[
+    tuple[str, ...] | None,
+    listed(_rungs, "Bounds to leave out, with all that need them.", "--without"),
 ]  # fmt: skip
 TimeLimit = Annotated[
     float | None,

@@ -7,14 +7,29 @@ from typing import Annotated, Any
 
 from cyclopts import Parameter
 
-from compare.commands import BAD_INPUT, DONE, FAILED
-from compare.commands.options import Export, Gap, Json, Rate, Seed, writable
+from compare.commands import BAD_INPUT, DONE, FAILED, INTERRUPTED
+from compare.commands.options import (
+    Export,
+    Gap,
+    Json,
+    Rate,
+    Rungs,
+    Seed,
+    TimeLimit,
+    Without,
+    writable,
+)
 from compare.commands.problem_options import FileOrRobot, OwnRobotOptions, problem_of
+from compare.interrupts import ctrl_c_stops
 from compare.screen import show, stages, table
 from formulations import RUNGS, InputError, Ladder, Problem, ladder
+from formulations.climb import RungResult
+from formulations.deadlines import Deadline
 from formulations.diagnosis import diagnose
 from formulations.optima.at_rate.export import check_export, export_motion
 from formulations.proofs.certificate import write_certificate
+from formulations.rungs import LARGE, usual_rungs, with_needs
+from formulations.rungs import without as leave_out
 
 _LINES = 8  # of what limits the fastest motion
 _PROOF = {"lower": "proved", "upper": "verified", "reference": "discretised"}
@@ -29,6 +44,9 @@ def solve(
     certificate: Annotated[str | None, Parameter(metavar="FILE", validator=writable)] = None,
     motion_certificate: Annotated[str | None, Parameter(metavar="FILE", validator=writable)] = None,
     gap: Gap = 1e-3,
+    rungs: Rungs = None,
+    without: Without = None,
+    time_limit: TimeLimit = None,
     export: Export = None,
     rate: Rate = None,
     seed: Seed = 0,
@@ -48,18 +66,35 @@ def solve(
     problem = problem_of(file, own)
     if export is not None:
         check_export(export, problem, rate)
-    with stages(problem.name) as stage:
+    chosen = usual_rungs(problem) if rungs is None else with_needs(rungs)
+    chosen = leave_out(chosen, without or ())
+    if not chosen:
+        raise InputError("--without: no rung is left")
+    if rungs is None and problem.n_segments > LARGE:
+        print(
+            f"{problem.name}: {problem.n_segments} segments: the rungs of the family are left out, as they "
+            f"take long beyond {LARGE}; --rungs family,family_lower asks for them",
+            file=sys.stderr,
+        )
+    deadline = Deadline(time_limit)
+    with ctrl_c_stops() as stop, stages(problem.name) as stage:
+        deadline.stop = stop
         answer = ladder(
             problem,
             seed=seed,
             certificate=bool(certificate or motion_certificate),
             gap=gap,
+            rungs=chosen,
+            time_limit=time_limit,
+            stop=stop,
             progress=stage,
+            finished=lambda result: print(_line(problem.name, result), file=sys.stderr, flush=True),
         )
         held = None
-        if answer.free_form is not None:
+        if answer.free_form is not None and not deadline.over:
             stage("what limits the fastest motion")
-            held = diagnose(problem, answer.free_form)
+            held = diagnose(problem, answer.free_form, deadline=deadline)
+        interrupted = stop()
     text = [
         f"{problem.name}: {problem.title}",
         f"{problem.dof} joints, {problem.n_segments} segments, family {problem.family}\n",
@@ -79,12 +114,17 @@ def solve(
         "family_lower": (certificate, answer.bound),
         "free_form_lower": (motion_certificate, answer.free_form_bound),
     }
-    code = DONE
+    code = INTERRUPTED if interrupted else DONE
     for key, (path, bound) in wanted.items():
         if path is None:
             continue
         if bound is None or bound.certificate is None:
-            reason = answer.rungs[key].note or "nothing was proved beyond the displacements"
+            rung = answer.rungs.get(key)
+            reason = (
+                "it was not asked for"
+                if rung is None
+                else rung.note or "nothing was proved beyond the displacements"
+            )
             print(f"{key}: no certificate was written: {reason}", file=sys.stderr)
             code = FAILED
         else:
@@ -122,12 +162,18 @@ def as_text(answer: Ladder) -> str:
     return "\n".join([table(header, rows, right=(1, 3)), "", "notes", *notes])
 
 
+def _line(name: str, rung: RungResult) -> str:
+    """One rung as soon as it is known."""
+    found = str(rung.status) if rung.seconds is None else f"{rung.seconds:.9g} s"
+    return f"{name}: {rung.key}: {found}, took {rung.runtime:.2f} s"
+
+
 def _unsolved(answer: Ladder) -> str:
     """Why there is no motion at all; empty if there is one."""
     upper = [rung for rung in answer.rungs.values() if rung.kind == "upper"]
-    if any(rung.status == "ok" for rung in upper):
+    if not upper or any(rung.status == "ok" for rung in upper):
         return ""
-    return answer.rungs["free_form"].note or upper[0].note
+    return next((rung.note for rung in upper if rung.key == "free_form" and rung.note), upper[0].note)
 
 
 def _export(path: str, problem: Problem, answer: Ladder, rate: float | None) -> str:

@@ -11,6 +11,7 @@ import signal
 import threading
 from collections.abc import Callable, Iterator, Sequence
 from contextlib import contextmanager
+from functools import partial
 from typing import Any
 
 import casadi
@@ -117,7 +118,7 @@ class StoppableIpopt:
         price, prices = self._prices
         parts: dict[str, Callable[[], Any]] = {"slope": lambda: casadi.gradient(f, x)}
         for index, block in enumerate(self.blocks):
-            parts[f"slopes {index}"] = lambda block=block: casadi.jacobian(block, x)
+            parts[f"slopes {index}"] = partial(casadi.jacobian, block, x)
         if self.options.get("ipopt.hessian_approximation") != "limited-memory":
             parts["bend"] = lambda: casadi.hessian(price * f, x)[0]
             parts["bends"] = lambda: casadi.hessian(casadi.dot(prices, g), x)[0]

@@ -148,4 +148,5 @@ COPP_FAMILY_PATH = Rung(
     find=copp_on,
     takes=Takes.PATH,
     after=("family",),
+    needs=("family",),
 )

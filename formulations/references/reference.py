@@ -142,7 +142,9 @@ class Rung:
         Whether the number is a theorem: a lower bound that is proved and rounded down, or an upper bound
         whose motion passes the check. The ladder runs that check itself.
     after : tuple of str
-        Keys of the rungs whose results ``find`` looks at.
+        Keys of the rungs whose results ``find`` looks at, where they are asked for.
+    needs : tuple of str
+        Those among them that it cannot do without: they are climbed with it.
     """
 
     key: str
@@ -153,3 +155,4 @@ class Rung:
     takes: Takes = Takes.PROBLEM
     certified: bool = False
     after: tuple[str, ...] = ()
+    needs: tuple[str, ...] = ()

@@ -194,6 +194,7 @@ TOPPRA_FAMILY_PATH = Rung(
     find=toppra_on,
     takes=Takes.PATH,
     after=("family",),
+    needs=("family",),
 )
 TOPPRA_CUBIC = Rung(
     key="toppra_cubic",

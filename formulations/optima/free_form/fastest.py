@@ -24,6 +24,7 @@ from formulations.problem.arrays import Array
 from formulations.problem.conditions import Conditions
 from formulations.problem.errors import InputError, NoFeasibleMotion, NotFoundInTime
 from formulations.problem.problem import Problem
+from formulations.problem.size import require_moderate
 from formulations.references.ruckig_ import ruckig_stop_and_go
 
 Solver = Literal["ipopt", "highs"]
@@ -153,6 +154,8 @@ def free_form(
 
     Raises
     ------
+    UnsupportedProblem
+        If there are more than 2000 waypoints.
     InputError
         If the conditions do not fit the problem, or an option is out of its range.
     NoFeasibleMotion
@@ -201,6 +204,7 @@ def free_form(
     """
     begun = time.perf_counter()
     deadline = Deadline(time_limit, stop)
+    require_moderate(problem)
     asked = conditions or Conditions()
     asked.validate(problem)
     if not (_LEAST_ARCS <= mesh <= _MOST_ARCS):

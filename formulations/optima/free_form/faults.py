@@ -4,9 +4,29 @@ from __future__ import annotations
 
 import numpy as np
 
+from formulations.motion.trajectory import Trajectory
 from formulations.optima.free_form.nlp.arcs import ArcMotion
 from formulations.optima.free_form.nlp.assembly import assemble
 from formulations.optima.free_form.nlp.conditioned import ConditionedProblem
+from formulations.problem.errors import InputError
+
+
+def finite(task: ConditionedProblem, motion: ArcMotion) -> Trajectory | None:
+    """Assemble a motion, unless its numbers overflow.
+
+    Parameters
+    ----------
+    task : ConditionedProblem
+    motion : ArcMotion
+
+    Returns
+    -------
+    Trajectory or None
+    """
+    try:
+        return assemble(task, motion)
+    except InputError:  # a trajectory has finite coefficients
+        return None
 
 
 def outside(task: ConditionedProblem, motion: ArcMotion) -> frozenset[tuple[int, int]]:
@@ -21,7 +41,9 @@ def outside(task: ConditionedProblem, motion: ArcMotion) -> frozenset[tuple[int,
     -------
     frozenset of (joint, segment)
     """
-    whole = assemble(task, motion)
+    whole = finite(task, motion)
+    if whole is None:
+        return frozenset()
     bounds = task.position_bounds
     middles = whole.breaks[:-1] + 0.5 * whole.durations
     passages = np.unique(whole.passage_times)

@@ -19,10 +19,9 @@ import numpy as np
 from formulations.deadlines import NEVER, Deadline
 from formulations.motion.verdict import check
 from formulations.optima.free_form.ending import SearchEnded, SearchStatus
-from formulations.optima.free_form.faults import missed, outside
+from formulations.optima.free_form.faults import finite, missed, outside
 from formulations.optima.free_form.nlp import ipopt, slp
 from formulations.optima.free_form.nlp.arcs import ArcMotion
-from formulations.optima.free_form.nlp.assembly import assemble
 from formulations.optima.free_form.nlp.conditioned import ConditionedProblem
 from formulations.optima.free_form.nlp.program import FreeFormNLP, NLPSolution
 from formulations.optima.free_form.retiming import Refusal, retime
@@ -135,7 +134,9 @@ class MeshRefinement:
 
     def _judged(self, name: str, motion: ArcMotion) -> tuple[VerifiedMotion | None, str]:
         for attempt in range(_STRETCHES):
-            whole = assemble(self.task, motion)
+            whole = finite(self.task, motion)
+            if whole is None:
+                return None, "the numbers overflow"
             verdict = check(self.task.problem, whole, conditions=self.task.conditions)
             if verdict.feasible:
                 return VerifiedMotion(name, motion, whole, verdict), ""
@@ -222,6 +223,7 @@ class MeshRefinement:
             if self.best is not None:
                 return []
         self._fastest_slowed(mesh)
+        self._go_on()
         if self.best is None and self.nearest is None:
             self._run(mesh, 1e-3)
         return ["not the smoothest motion: no solution of that program was found"]
@@ -247,7 +249,7 @@ class MeshRefinement:
         if inner.best is not None:
             motion = inner.best.motion
             factor = task.times[task.n_segments] / float(motion.times.sum())
-            if factor < 1.0 and len(task.times) == 1:
+            if factor < 1.0 and len(task.times) == 1 and not inner.ended:
                 self.nearest, self.missed = motion, missed(task, motion)
             found = self.offer("fastest, slowed down", motion.stretched(factor))
             if found is not None and inner.status(1e-3) is SearchStatus.OK:
@@ -317,12 +319,10 @@ class MeshRefinement:
         return motion
 
     def _go_on(self) -> None:
-        """End the search when its time is over."""
         if self.deadline.over:
             raise SearchEnded
 
     def _note(self, solution: NLPSolution, found: VerifiedMotion | None) -> None:
-        """Note how a solve of the final program ended, and whether its motion stands."""
         self.reason = "" if solution.converged else solution.status
         if solution.converged and found is not None:
             self.converged = min(self.converged, found.verdict.seconds)

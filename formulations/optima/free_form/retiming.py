@@ -140,7 +140,7 @@ def _segment(
         brake = profile.brake
         phases[i, :2], phases[i, 2:] = brake.t, profile.t
         tops[i, :2], tops[i, 2:] = (brake.j, profile.j) if third else (brake.a, profile.a[:7])
-        tops[i] *= length[i] / scale ** (3 if third else 2)
+        tops[i] *= length[i] / np.float64(scale) ** (3 if third else 2)
     phases[:, -1] += seconds - phases.sum(axis=1)
     if not (phases >= -1e-9 * seconds).all():
         return Refusal(f"Ruckig's phases of segment {k + 1} do not add up")

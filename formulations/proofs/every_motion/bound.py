@@ -17,6 +17,7 @@ from formulations.problem.arrays import Array
 from formulations.problem.conditions import Conditions
 from formulations.problem.errors import InputError
 from formulations.problem.problem import Problem
+from formulations.problem.size import require_moderate
 from formulations.proofs.certificate import certificate_of
 from formulations.proofs.every_motion.conditioned import added_up, parts_of
 from formulations.proofs.every_motion.horizons import HorizonSearch
@@ -157,6 +158,8 @@ def free_form_bound(
 
     Raises
     ------
+    UnsupportedProblem
+        If there are more than 2000 waypoints.
     InputError
         If ``gap``, ``upper`` or ``time_limit`` is not a number in its range.
 
@@ -197,6 +200,7 @@ def free_form_bound(
         raise InputError(f"gap: {gap!r} is not a positive number")
     if upper is not None and not (upper >= 0.0 and np.isfinite(upper)):
         raise InputError(f"upper: {upper!r} s is not a time")
+    require_moderate(problem)
     deadline = Deadline(time_limit, stop)
     if conditions is not None and not conditions.none:
         return _conditioned(problem, conditions, gap, upper, deadline, started, progress)

@@ -71,7 +71,7 @@ def parts_of(problem: Problem, conditions: Conditions) -> list[Part]:
     cuts = sorted({0, n, *conditions.stops})
     derivatives = conditions.derivatives(problem)
     positions = conditions.position_bounds(problem)
-    moves = conditions.end_velocities(problem).any(axis=1)
+    from_speed, to_speed = (bool(end.any()) for end in conditions.end_velocities(problem))
     distances = np.abs(problem.displacements)
     least = (distances / derivatives[0]).max(axis=1) * (1.0 - SAFE)
     slack, found = problem.position_slack, []
@@ -88,7 +88,7 @@ def parts_of(problem: Problem, conditions: Conditions) -> list[Part]:
             position=np.stack([low, high], axis=1),
         )
         part = replace(problem, waypoints=problem.waypoints[first : last + 1].copy(), limits=limits)
-        rests = not ((first == 0 and moves[0]) or (last == n and moves[1]))
+        rests = not ((first == 0 and from_speed) or (last == n and to_speed))
         found.append(Part(part, first, last, rests, least[inside]))
     return found
 

@@ -307,7 +307,7 @@ class HorizonSearch:
 
 
 def _why(solution: LPSolution) -> str:
-    if solution.status == LPStatus.REFUSED:
+    if solution.status == LPStatus.REFUSED or solution.reason == "Not Set":
         return "the numbers are too far apart for HiGHS"
     return f"HiGHS ended with {solution.reason.lower()}"
 

@@ -84,3 +84,25 @@ def test_the_time_limit_is_kept_and_said(hundred: Path, capsys: pytest.CaptureFi
     out = capsys.readouterr().out
     assert "time limit)" in out.splitlines()[0]
     assert "the time limit ended the search: this is the best verified motion until then" in out
+
+
+def test_solve_tells_each_rung_and_ctrl_c_keeps_what_is_there(hundred: Path) -> None:
+    process = started("solve", str(hundred))
+    out, err, took = interrupted(process, 6.0)
+    assert took < 5.0
+    assert process.returncode == 130
+    assert "hundred: 99 segments: the rungs of the family are left out" in err
+    assert "hundred: displacement: " in err
+    assert "interrupted" in out
+
+
+def test_plan_prints_what_is_proved_unless_it_is_not_wanted(capsys: pytest.CaptureFixture[str]) -> None:
+    assert main(["plan", "ur5"]) == 0
+    assert "proved: no such motion takes less than 14.7678" in capsys.readouterr().out
+    assert main(["plan", "ur5", "--no-bound"]) == 0
+    assert "proved" not in capsys.readouterr().out
+
+
+def test_a_rung_that_is_not_there_is_one_line(capsys: pytest.CaptureFixture[str]) -> None:
+    assert main(["solve", "ur5", "--rungs", "free_from"]) == 2
+    assert "did you mean 'free_form'" in capsys.readouterr().err

@@ -117,12 +117,11 @@ class Arcs:
         left = seconds - np.cumsum(h, axis=1)
         # effect of each top on position, velocity (and acceleration) at the end of its segment
         powers = np.arange(self.order, 0, -1)
-        whole = (left + h)[:, None] ** powers[:, None] - left[:, None] ** powers[:, None]
-        rows = (
-            whole
-            / np.array([1.0, 1.0, 2.0, 6.0])[powers][:, None]
-            / seconds[:, None] ** powers[:, None]
-        )
+        before, after = ((left + h) / seconds)[:, None], (left / seconds)[:, None]
+        whole = before ** powers[:, None] - after ** powers[:, None]
+        rows = whole / np.array([1.0, 1.0, 2.0, 6.0])[powers][:, None]
+        if not np.isfinite(rows).all():
+            return self  # the numbers overflow, and the check refuses the motion
         inverse = np.linalg.pinv(rows, rcond=1e-14)
         exact = self
         for _ in range(2):

@@ -165,7 +165,7 @@ class Equations:
         for order, n, arcs in zip((2, 3), shape.joints, shape.arcs, strict=True):
             if n:
                 roughness += self._group(order, n, arcs, times)
-        missed = 0.0
+        missed: Any = 0.0
         for waypoint in shape.timed:
             passed = casadi.sum1(times[:waypoint])
             if shape.elastic:
