@@ -193,9 +193,8 @@ def _free_form(climb: Climb) -> Outcome:
         stop=climb.deadline.stop,
     )
     climb.free_form = found
-    note = "; ".join([found.method, *found.notes])
-    if found.status != "ok":
-        note += f"; {found.ending}"
+    ended = [] if found.status == "ok" else [found.ending]
+    note = "; ".join([found.method, *found.notes, *ended])
     # splines and stop-and-go are motions too; the fastest one of all is reported
     others = {key: climb.seconds(key) for key in ("family", "ruckig_stop_and_go")}
     for key, seconds in others.items():

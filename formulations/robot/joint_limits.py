@@ -21,7 +21,7 @@ from typing import Any
 
 from formulations.problem.errors import InputError
 from formulations.robot.joints import SMALLEST_LIMIT, UNLIMITED, Joint, JointKind
-from formulations.robot.text.entry import Entry
+from formulations.robot.text.entry import TextEntry
 from formulations.robot.text.files import known_names, nearest_of, shown
 from formulations.robot.text.trees import parse_yaml
 from formulations.robot.urdf import MOST_JOINTS
@@ -50,14 +50,14 @@ class JointEntry:
 
     Attributes
     ----------
-    entry : Entry
+    entry : TextEntry
         Where it stands.
-    values : mapping of str to Entry
+    values : mapping of str to TextEntry
         Its keys.
     """
 
-    entry: Entry
-    values: Mapping[str, Entry]
+    entry: TextEntry
+    values: Mapping[str, TextEntry]
 
 
 @dataclass(frozen=True)
@@ -101,7 +101,7 @@ def parse_limits(text: str, file: str) -> LimitsFile:
     """
     top = parse_yaml(text, file)
     joints: dict[str, JointEntry] = {}
-    factors: dict[str, Entry] = {}
+    factors: dict[str, TextEntry] = {}
     for table in _tables(top):
         for name, entry in table.entries().items():
             if name in _FACTORS:
@@ -123,7 +123,7 @@ def parse_limits(text: str, file: str) -> LimitsFile:
     return LimitsFile(joints, velocity, acceleration)
 
 
-def _tables(top: Entry) -> list[Entry]:
+def _tables(top: TextEntry) -> list[TextEntry]:
     """The tables that hold ``joint_limits`` or factors."""
     nodes = _nodes(top, 3)
     if not nodes:
@@ -142,7 +142,7 @@ def _tables(top: Entry) -> list[Entry]:
     return found
 
 
-def _nodes(entry: Entry, levels: int) -> list[Entry]:
+def _nodes(entry: TextEntry, levels: int) -> list[TextEntry]:
     """The parameters of all ROS nodes of a file, in name spaces too."""
     if not entry.is_mapping or levels == 0:
         return []
@@ -152,7 +152,7 @@ def _nodes(entry: Entry, levels: int) -> list[Entry]:
     return [node for inner in entries.values() for node in _nodes(inner, levels - 1)]
 
 
-def _checked(table: Entry, *, outermost: bool = False) -> Entry:
+def _checked(table: TextEntry, *, outermost: bool = False) -> TextEntry:
     entries = table.entries((*_TOP, _WRAPPER) if outermost else _TOP)
     if _WRAPPER not in entries:
         return table
@@ -161,7 +161,7 @@ def _checked(table: Entry, *, outermost: bool = False) -> Entry:
     return _checked(entries[_WRAPPER])
 
 
-def _same(known: Mapping[str, Entry], name: str, entry: Entry) -> None:
+def _same(known: Mapping[str, TextEntry], name: str, entry: TextEntry) -> None:
     """Two nodes of a file may give a value twice where it is the same one."""
     if name in known and known[name].node.value != entry.node.value:
         raise entry.error(
@@ -178,7 +178,7 @@ def _agree(joint: str, first: JointEntry, second: JointEntry) -> None:
         _same(first.values, key, second.values[key])
 
 
-def _factor(entry: Entry | None) -> float | None:
+def _factor(entry: TextEntry | None) -> float | None:
     if entry is None:
         return None
     value = entry.number()
@@ -210,7 +210,7 @@ def _check(joint: str, found: JointEntry) -> None:
                 raise values[key].error(f"joint {shown(joint)}: given beside angle_wraparound: true")
 
 
-def _in_force(values: Mapping[str, Entry], quantity: str) -> bool:
+def _in_force(values: Mapping[str, TextEntry], quantity: str) -> bool:
     switch = values.get(f"has_{quantity}_limits")
     return switch is None or switch.boolean()
 

@@ -26,7 +26,7 @@ from formulations.motion.files.motion_points import MotionPoints
 from formulations.motion.files.records import Records, json_records, require_small, yaml_records
 from formulations.problem.arrays import Array
 from formulations.problem.errors import InputError
-from formulations.robot.text.entry import Entry
+from formulations.robot.text.entry import TextEntry
 from formulations.robot.text.files import decode
 from formulations.robot.text.trees import parse_json, parse_yaml
 from formulations.robot.waypoints.trajectory import MESSAGE, POINT, message_of
@@ -155,7 +155,7 @@ def read_yaml(data: bytes, file: str, *, records: bool = True) -> MotionPoints:
 def _read(
     data: bytes,
     file: str,
-    parse: Callable[[str, str], Entry],
+    parse: Callable[[str, str], TextEntry],
     split: Callable[[bytes], Records | None] | None,
 ) -> MotionPoints:
     found = split(data) if split else None
@@ -203,7 +203,7 @@ class _Message:
         return MotionPoints(seconds, positions, velocities, accelerations, named(self.names, "joint_"))
 
 
-def _message(top: Entry) -> _Message:
+def _message(top: TextEntry) -> _Message:
     message = message_of(top)
     entries = message.entries(MESSAGE)
     if "points" not in entries:
@@ -234,7 +234,7 @@ def _message(top: Entry) -> _Message:
 
 
 def _values(
-    points: list[Entry], keys: list[dict[str, Entry]], name: str, dof: int, joints: list[str]
+    points: list[TextEntry], keys: list[dict[str, TextEntry]], name: str, dof: int, joints: list[str]
 ) -> Array | None:
     """One list of numbers per point; None where no point has one."""
     lists = [found[name].elements() if name in found else [] for found in keys]
@@ -256,7 +256,7 @@ def _values(
     return np.array(rows, dtype=np.float64)
 
 
-def _stamp(entry: Entry) -> tuple[float, float | None]:
+def _stamp(entry: TextEntry) -> tuple[float, float | None]:
     """Seconds, and nanoseconds where the time has them."""
     if not entry.is_mapping:
         return entry.number(), None

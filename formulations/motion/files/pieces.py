@@ -20,7 +20,7 @@ import numpy as np
 from formulations.motion.files.checked import named, numbered
 from formulations.motion.trajectory import Trajectory
 from formulations.problem.errors import InputError
-from formulations.robot.text.entry import Entry
+from formulations.robot.text.entry import TextEntry
 from formulations.robot.text.files import decode, shown
 from formulations.robot.text.trees import parse_json
 
@@ -141,7 +141,7 @@ def read_pieces(data: bytes, file: str) -> tuple[Trajectory, tuple[str, ...]]:
     return Trajectory(np.array(durations), coefficients, passages), named(names, "joint_")
 
 
-def _number(entry: Entry) -> float:
+def _number(entry: TextEntry) -> float:
     """A finite number of any size: coefficients of short pieces are large."""
     value = entry.node.value
     if isinstance(value, bool) or not isinstance(value, (int, float)) or not math.isfinite(value):

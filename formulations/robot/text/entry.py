@@ -1,6 +1,6 @@
 """One value of a YAML or JSON file, with the place it stands at: typed reading with one-line errors.
 
-Both formats become the same tree of ``Node``. An ``Entry`` walks down that tree and remembers the file and
+Both formats become the same tree of ``TextNode``. An ``TextEntry`` walks down that tree and remembers the file and
 the keys on its way, so that every message names file, line, key path and value.
 """
 
@@ -15,7 +15,7 @@ from formulations.problem.errors import InputError
 from formulations.robot.text.files import known_names, shown
 
 Scalar: TypeAlias = str | float | bool | None
-Value: TypeAlias = dict[str, "Node"] | list["Node"] | Scalar
+Value: TypeAlias = dict[str, "TextNode"] | list["TextNode"] | Scalar
 
 LARGEST_NUMBER = 1e9  # nothing that a robot does is beyond; guards all that computes with it
 MOST_DEPTH = 32  # levels of a file that is read
@@ -23,7 +23,7 @@ MOST_KEYS = 5000  # keys of one mapping
 MOST_NODES = 3_000_000  # values of a file that is read
 
 
-class Node(NamedTuple):
+class TextNode(NamedTuple):
     """A value as a file holds it: what it is, its line (None in JSON), and whether it was in degrees."""
 
     value: Value
@@ -32,12 +32,12 @@ class Node(NamedTuple):
 
 
 @dataclass(frozen=True, slots=True)
-class Entry:
+class TextEntry:
     """A value and where it stands.
 
     Attributes
     ----------
-    node : Node
+    node : TextNode
         The value with its line.
     file : str
         Name of the file.
@@ -45,7 +45,7 @@ class Entry:
         Keys and indices from the top, ``points[2].positions``.
     """
 
-    node: Node
+    node: TextNode
     file: str
     path: str = ""
 
@@ -96,27 +96,27 @@ class Entry:
         value = self.node.value
         return isinstance(value, dict) and any(key in value for key in keys)
 
-    def child(self, key: str | int, node: Node) -> Entry:
+    def child(self, key: str | int, node: TextNode) -> TextEntry:
         """The entry of a value inside this one.
 
         Parameters
         ----------
         key : str or int
             Its key or index.
-        node : Node
+        node : TextNode
             The value.
 
         Returns
         -------
-        Entry
+        TextEntry
             With the key added to the path.
         """
         if isinstance(key, int):
-            return Entry(node, self.file, f"{self.path}[{key}]")
+            return TextEntry(node, self.file, f"{self.path}[{key}]")
         name = key if key.isprintable() and len(key) <= 60 else shown(key)
-        return Entry(node, self.file, f"{self.path}.{name}" if self.path else name)
+        return TextEntry(node, self.file, f"{self.path}.{name}" if self.path else name)
 
-    def entries(self, known: Iterable[str] | None = None) -> dict[str, Entry]:
+    def entries(self, known: Iterable[str] | None = None) -> dict[str, TextEntry]:
         """The values of a mapping.
 
         Parameters
@@ -126,7 +126,7 @@ class Entry:
 
         Returns
         -------
-        dict of str to Entry
+        dict of str to TextEntry
             In the order of the file.
 
         Raises
@@ -145,7 +145,7 @@ class Entry:
                     raise entry.error(f"unknown key; {known_names(key, allowed)}")
         return found
 
-    def elements(self) -> list[Entry]:
+    def elements(self) -> list[TextEntry]:
         """The values of a list; raises InputError where the value is none."""
         value = self.node.value
         if not isinstance(value, list):

@@ -14,7 +14,7 @@ import math
 from typing import Any, NoReturn
 
 from formulations.problem.errors import InputError
-from formulations.robot.text.entry import MOST_DEPTH, MOST_KEYS, MOST_NODES, Entry, Node, Scalar
+from formulations.robot.text.entry import MOST_DEPTH, MOST_KEYS, MOST_NODES, Scalar, TextEntry, TextNode
 from formulations.robot.text.files import number_of, shown
 
 _WORDS: dict[str, bool | None] = {
@@ -24,7 +24,7 @@ _WORDS: dict[str, bool | None] = {
 _INFINITE = {".inf": math.inf, "+.inf": math.inf, "-.inf": -math.inf, ".nan": math.nan}
 
 
-def parse_yaml(text: str, file: str) -> Entry:
+def parse_yaml(text: str, file: str) -> TextEntry:
     """Read YAML text.
 
     Parameters
@@ -36,7 +36,7 @@ def parse_yaml(text: str, file: str) -> Entry:
 
     Returns
     -------
-    Entry
+    TextEntry
         The document.
 
     Raises
@@ -66,10 +66,10 @@ def parse_yaml(text: str, file: str) -> Entry:
         raise InputError(f"{file}: not valid YAML: {type(error).__name__}") from None
     if builder.root is None or builder.root.value is None:
         raise InputError(f"{file}: holds no values")
-    return Entry(builder.root, file)
+    return TextEntry(builder.root, file)
 
 
-def parse_json(text: str, file: str) -> Entry:
+def parse_json(text: str, file: str) -> TextEntry:
     """Read JSON text.
 
     Parameters
@@ -81,7 +81,7 @@ def parse_json(text: str, file: str) -> Entry:
 
     Returns
     -------
-    Entry
+    TextEntry
         The value; its lines are unknown.
 
     Raises
@@ -106,17 +106,17 @@ def parse_json(text: str, file: str) -> Entry:
         raise InputError(f"{file}: line {error.lineno}: not valid JSON: {error.msg}") from None
     except RecursionError:
         raise InputError(f"{file}: more than {MOST_DEPTH} levels deep") from None
-    return Entry(_nodes(data, file, MOST_DEPTH), file)
+    return TextEntry(_nodes(data, file, MOST_DEPTH), file)
 
 
-def _nodes(data: Any, file: str, levels: int) -> Node:
+def _nodes(data: Any, file: str, levels: int) -> TextNode:
     if levels == 0:
         raise InputError(f"{file}: more than {MOST_DEPTH} levels deep")
     if isinstance(data, dict):
-        return Node({key: _nodes(value, file, levels - 1) for key, value in data.items()})
+        return TextNode({key: _nodes(value, file, levels - 1) for key, value in data.items()})
     if isinstance(data, list):
-        return Node([_nodes(value, file, levels - 1) for value in data])
-    return Node(data)
+        return TextNode([_nodes(value, file, levels - 1) for value in data])
+    return TextNode(data)
 
 
 class _Builder:
@@ -124,9 +124,9 @@ class _Builder:
 
     def __init__(self, file: str) -> None:
         self.file = file
-        self.root: Node | None = None
+        self.root: TextNode | None = None
         self.open: list[
-            tuple[dict[str, Node] | list[Node], int, list[str]]
+            tuple[dict[str, TextNode] | list[TextNode], int, list[str]]
         ] = []  # value, line, its key
         self.count = 0
         self.documents = 0
@@ -144,7 +144,7 @@ class _Builder:
             self.open.append(({} if name == "MappingStartEvent" else [], self._line(event), []))
         elif name in ("MappingEndEvent", "SequenceEndEvent"):
             value, line, _ = self.open.pop()
-            self._add(event, Node(value, line))
+            self._add(event, TextNode(value, line))
         elif name == "AliasEvent":
             self._fail(
                 event, f"alias {shown('*' + event.anchor)}: aliases are not read; write the value"
@@ -171,13 +171,13 @@ class _Builder:
             number = number_of(event.value)
             if number is None:
                 self._fail(event, f"{event.tag}: expected a number, got {shown(event.value)}")
-            self._add(event, Node(math.radians(number) if degrees else number, line, degrees))
+            self._add(event, TextNode(math.radians(number) if degrees else number, line, degrees))
             return
         self._untagged(event)
         plain = event.style in (None, "")
-        self._add(event, Node(_scalar_of(event.value) if plain else event.value, line))
+        self._add(event, TextNode(_scalar_of(event.value) if plain else event.value, line))
 
-    def _add(self, event: Any, node: Node) -> None:
+    def _add(self, event: Any, node: TextNode) -> None:
         if not self.open:
             if self.root is not None and self.documents > 1:
                 if node.value is None:  # what is behind a last ---

@@ -26,7 +26,7 @@ _DECIMAL_COMMA = re.compile(r"\s*[-+]?\d+,\d+\s*", re.ASCII)
 
 
 @dataclass(frozen=True)
-class Table:
+class CsvTable:
     """The cells of a CSV file.
 
     Attributes
@@ -44,7 +44,7 @@ class Table:
     rows: list[tuple[int, list[str]]]
 
 
-def parse_table(text: str, file: str) -> Table:
+def parse_table(text: str, file: str) -> CsvTable:
     """Read CSV text.
 
     Parameters
@@ -56,7 +56,7 @@ def parse_table(text: str, file: str) -> Table:
 
     Returns
     -------
-    Table
+    CsvTable
         Cells without spaces around them; a decimal comma is turned into a point.
 
     Raises
@@ -75,7 +75,7 @@ def parse_table(text: str, file: str) -> Table:
     body = rows[1:] if header else rows
     if not body:
         raise InputError(f"{file}: has a header and no rows below it")
-    return Table(file, header, body)
+    return CsvTable(file, header, body)
 
 
 def _is_name(cell: str) -> bool:
@@ -110,12 +110,12 @@ def _cells(text: str, file: str) -> Iterator[tuple[int, list[str]]]:
             yield number, cells
 
 
-def numbers_of(table: Table, columns: Sequence[str]) -> Array:
+def numbers_of(table: CsvTable, columns: Sequence[str]) -> Array:
     """The numbers of all rows.
 
     Parameters
     ----------
-    table : Table
+    table : CsvTable
         Cells of a file.
     columns : sequence of str
         What each column holds, as messages name it.
@@ -146,12 +146,12 @@ def numbers_of(table: Table, columns: Sequence[str]) -> Array:
     return values
 
 
-def joint_columns(table: Table, names: Sequence[str], others: Sequence[str] = ()) -> Array:
+def joint_columns(table: CsvTable, names: Sequence[str], others: Sequence[str] = ()) -> Array:
     """The numbers of a table with a column per joint, in the order of the joints.
 
     Parameters
     ----------
-    table : Table
+    table : CsvTable
         Cells of a file; a header names the columns as the joints, or ``position_`` and the joint.
     names : sequence of str
         The joints.

@@ -23,9 +23,9 @@ from scipy.spatial.transform import Rotation
 
 from formulations.problem.arrays import Array
 from formulations.problem.errors import InputError
-from formulations.robot.text.entry import Entry
+from formulations.robot.text.entry import TextEntry
 from formulations.robot.text.files import known_names, shown
-from formulations.robot.waypoints.csv_table import Table, numbers_of
+from formulations.robot.waypoints.csv_table import CsvTable, numbers_of
 
 METRES = {"m": 1.0, "mm": 1e-3}
 RADIANS = {"rad": 1.0, "deg": math.pi / 180.0}
@@ -62,12 +62,12 @@ class Poses:
     near_unit: str = "rad"
 
 
-def poses_of_entry(top: Entry, unit: str = "rad", length: str = "m") -> Poses:
+def poses_of_entry(top: TextEntry, unit: str = "rad", length: str = "m") -> Poses:
     """Read poses from YAML or JSON.
 
     Parameters
     ----------
-    top : Entry
+    top : TextEntry
         The file.
     unit, length : str, optional
         Units where the file names none: ``rad`` or ``deg``, ``m`` or ``mm``.
@@ -110,12 +110,12 @@ def poses_of_entry(top: Entry, unit: str = "rad", length: str = "m") -> Poses:
     return Poses(np.array(found), tip, base, near, unit)
 
 
-def has_pose_columns(table: Table) -> bool:
+def has_pose_columns(table: CsvTable) -> bool:
     """Whether a CSV file holds poses: its first three columns are x, y and z.
 
     Parameters
     ----------
-    table : Table
+    table : CsvTable
         Cells of a file.
 
     Returns
@@ -126,12 +126,12 @@ def has_pose_columns(table: Table) -> bool:
     return table.header is not None and {"x", "y", "z"} <= set(table.header)
 
 
-def poses_of_table(table: Table, unit: str = "rad", length: str = "m") -> Poses:
+def poses_of_table(table: CsvTable, unit: str = "rad", length: str = "m") -> Poses:
     """Read poses from CSV.
 
     Parameters
     ----------
-    table : Table
+    table : CsvTable
         With the columns x, y, z, and roll, pitch, yaw or qx, qy, qz, qw, in any order.
     unit, length : str, optional
         Units of the angles and the positions.
@@ -188,7 +188,7 @@ def _pose(
     return pose
 
 
-def _vector(entry: Entry, names: tuple[str, ...]) -> list[float]:
+def _vector(entry: TextEntry, names: tuple[str, ...]) -> list[float]:
     """Numbers in a list, or by name as ROS messages have them."""
     if not entry.is_mapping:
         return entry.numbers(len(names))
@@ -199,7 +199,7 @@ def _vector(entry: Entry, names: tuple[str, ...]) -> list[float]:
     return [entries[name].number() for name in names]
 
 
-def _unit(entries: dict[str, Entry], key: str, known: dict[str, float], default: str) -> str:
+def _unit(entries: dict[str, TextEntry], key: str, known: dict[str, float], default: str) -> str:
     if key not in entries:
         return default
     text = entries[key].text()

@@ -12,7 +12,7 @@ from formulations.problem.arrays import Array
 from formulations.problem.errors import InputError, OutOfReach
 from formulations.problem.problem import POSITION_TOLERANCE
 from formulations.robot.robot import Robot
-from formulations.robot.text.entry import Entry
+from formulations.robot.text.entry import TextEntry
 from formulations.robot.text.files import decode, known_names, read_bytes, shown
 from formulations.robot.text.trees import parse_json, parse_yaml
 from formulations.robot.waypoints.csv_table import joint_columns, parse_table
@@ -139,7 +139,7 @@ def positions_or_poses(
             return poses_of_table(table, unit, length)
         others = [] if robot.urdf is None else [joint.name for joint in robot.urdf.joints]
         return joint_columns(table, robot.names, others)
-    top: Entry = (parse_json if file.lower().endswith(".json") else parse_yaml)(text, file)
+    top: TextEntry = (parse_json if file.lower().endswith(".json") else parse_yaml)(text, file)
     if top.has("poses"):
         return poses_of_entry(top, unit, length)
     if top.is_list or top.has(*MESSAGE, *WRAPPERS):

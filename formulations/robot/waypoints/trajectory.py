@@ -13,7 +13,7 @@ import numpy as np
 
 from formulations.problem.arrays import Array
 from formulations.problem.errors import InputError
-from formulations.robot.text.entry import Entry
+from formulations.robot.text.entry import TextEntry
 from formulations.robot.text.files import known_names, shown
 from formulations.robot.waypoints.csv_table import MOST_WAYPOINTS, check_complete
 
@@ -34,12 +34,12 @@ _BESIDE = (  # what ROS messages have beside a trajectory
 POINT = ("positions", "velocities", "accelerations", "effort", "time_from_start")
 
 
-def trajectory_positions(top: Entry, names: Sequence[str]) -> Array:
+def trajectory_positions(top: TextEntry, names: Sequence[str]) -> Array:
     """Positions of all points, in the order of the joints.
 
     Parameters
     ----------
-    top : Entry
+    top : TextEntry
         A JointTrajectory, or a message that holds one.
     names : sequence of str
         The joints that are moved.
@@ -83,24 +83,24 @@ def trajectory_positions(top: Entry, names: Sequence[str]) -> Array:
     return np.array(rows, dtype=np.float64).reshape(-1, len(given))[:, order]
 
 
-def _number(entry: Entry, joint: str) -> float:
+def _number(entry: TextEntry, joint: str) -> float:
     try:
         return entry.number()
     except InputError as error:
         raise InputError(f"{error} (joint {shown(joint)})") from None
 
 
-def message_of(top: Entry) -> Entry:
+def message_of(top: TextEntry) -> TextEntry:
     """The JointTrajectory inside the messages that carry it.
 
     Parameters
     ----------
-    top : Entry
+    top : TextEntry
         A JointTrajectory, or a message that holds one.
 
     Returns
     -------
-    Entry
+    TextEntry
         With the keys ``joint_names`` and ``points``, if it is one.
 
     Raises
