@@ -1,7 +1,7 @@
 """One value of a YAML or JSON file, with the place it stands at: typed reading with one-line errors.
 
-Both formats become the same tree of ``TextNode``. An ``TextEntry`` walks down that tree and remembers the file and
-the keys on its way, so that every message names file, line, key path and value.
+Both formats become the same tree of ``TextNode``. A ``TextEntry`` walks down that tree and remembers the file
+and the keys on its way, so that every message names file, line, key path and value.
 """
 
 from __future__ import annotations
