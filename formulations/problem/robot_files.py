@@ -14,13 +14,13 @@ from typing import TYPE_CHECKING, Any
 from formulations.problem.arrays import Array
 from formulations.problem.errors import InputError
 from formulations.problem.problem import Problem
+from formulations.problem.size import MOST_WAYPOINTS
 from formulations.problem.toml_values import read_number, read_text, shown
 
 if TYPE_CHECKING:
     from formulations.robot import Robot
 
 SCALINGS = ("velocity_scaling", "acceleration_scaling", "jerk_scaling")
-MOST_WAYPOINTS = 1000  # the fastest motion through more takes hours, and nobody would see it begin
 ROBOT_KEYS = ("robot", "srdf", "group", "limits_file", "unlimited", "base", "tip", *SCALINGS)
 
 

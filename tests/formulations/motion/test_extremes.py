@@ -200,4 +200,4 @@ def test_a_minute_of_seven_joints_at_1_khz_is_searched_in_a_second() -> None:
         found = motion.extremes(order)
         if order < 3:  # the jerk of a quintic between samples is not that of the sine
             assert found.high.max(axis=0) == pytest.approx(speed**order, rel=1e-9)
-    assert process_time() - start < 1.5  # eigenvalues of every piece: 4 s and more
+    assert process_time() - start < 3.0  # eigenvalues of every piece: 4 s and more

@@ -6,6 +6,7 @@ import os
 import signal
 import threading
 import time
+from collections.abc import Iterator
 from typing import Any
 
 import numpy as np
@@ -21,6 +22,14 @@ pytestmark = pytest.mark.filterwarnings("error")
 
 def run(search: Search, f: Any = bowl, *, budget: int = 100) -> Result:
     return minimise(search, f, LO, HI, budget=budget, seed=0)
+
+
+@pytest.fixture(autouse=True)
+def _sigint_as_on_a_terminal() -> Iterator[None]:
+    """A test run in the background of a shell inherits that SIGINT is ignored."""
+    before = signal.signal(signal.SIGINT, signal.default_int_handler)
+    yield
+    signal.signal(signal.SIGINT, before)
 
 
 def ctrl_c() -> None:
