@@ -12,7 +12,7 @@ from formulations import Limits, Problem, check, free_form, free_form_bound
 POINTS = np.cumsum(np.random.default_rng(0).uniform(-0.6, 0.6, (5, 3)), axis=0)
 
 
-@pytest.mark.parametrize("size", [1.0, 1e6, 1e12])
+@pytest.mark.parametrize("size", [1.0, 1e3, 1e6])
 @pytest.mark.parametrize(
     "limits", [(1e-12, 8.0, 60.0), (2.0, 1e12, 1e15), ([1e-12, 1.0, 1.0], 8.0, 1e-9)], ids=str
 )
@@ -31,7 +31,7 @@ def test_extremes_are_answered_in_words(limits: tuple[float, float, float], size
 
 
 def test_times_whose_cubes_overflow_are_no_traceback() -> None:
-    problem = Problem.of(POINTS * 1e100, Limits.of(1e-12, 8.0, 60.0, dof=3))
+    problem = Problem.of(POINTS, Limits.of(1e-112, 8.0, 60.0, dof=3))
     found = free_form(problem, time_limit=10.0)
     assert found.trajectory is not None
     assert check(problem, found.trajectory).feasible

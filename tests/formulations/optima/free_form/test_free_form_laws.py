@@ -122,7 +122,7 @@ def test_nothing_moves() -> None:
 
 def test_ruckigs_own_failures_are_a_status() -> None:
     # its answer is a result that its enumeration does not have
-    problem = Problem.of([[0.0], [1e9]], Limits.of(1e-2, 1.0, 1.0, dof=1))
+    problem = Problem.of([[0.0], [1e6]], Limits.of(1e-5, 1e-3, 1e-3, dof=1))
     assert REFERENCES["ruckig_stop_and_go"](problem).status == "failed"
     assert check(problem, motion(free_form(problem))).feasible
 

@@ -9,6 +9,7 @@ import pytest
 from every_motion_helpers import exact, frame_for, holds, problem_of, random_cuts, spread
 
 from formulations import InputError, Problem, free_form_bound, load
+from formulations.deadlines import Deadline
 from formulations.proofs.every_motion.relaxation.linear_program import LinearProgram
 from formulations.proofs.every_motion.relaxation.tightening import tighten
 from formulations.proofs.rest_to_rest import rest_to_rest
@@ -22,7 +23,7 @@ def test_tightened_boxes_keep_the_fastest_motion() -> None:
     frame = frame_for(problem, motion.seconds * (1.0 + 1e-9))
     program = LinearProgram(frame, random_cuts(frame, np.random.default_rng(0), 5))
     solution = program.solve(frame.cost, rounds=50, tolerance=1e-8)
-    boxes = tighten(program, solution, math.inf)
+    boxes = tighten(program, solution, Deadline(None))
     assert not boxes.empty
     T = np.diff(motion.passage_times)
     assert (boxes.durations[:, 0] <= T).all()
