@@ -19,7 +19,7 @@ from formulations.planning import PlannedMotion, plan
 from formulations.problem.conditions import Conditions
 from formulations.problem.errors import InputError, NoFeasibleMotion, NotFoundInTime, UnsupportedProblem
 from formulations.problem.problem import Limits, Problem
-from formulations.problem.problem_file import CASES, load, parse
+from formulations.problem.toml_file.problem_file import CASES, load, parse
 from formulations.proofs.every_motion.bound import FreeFormBound, free_form_bound
 from formulations.proofs.family import FamilyBound, family_bound
 from formulations.robot import Robot, robot_of, waypoints_of

@@ -32,42 +32,42 @@ PAPERS, STUDIES = "Published results", "Studies"
 
 _ALL = (
     Command(
-        "new", "compare.commands.new:new", MOTIONS,
+        "new", "compare.commands.motions.new:new", MOTIONS,
         "Write a problem file: from a robot's files, from options, or from your answers.",
         "timebound new --from-urdf arm.urdf --limits joint_limits.yaml --waypoints path.csv -o mine.toml",
     ),
     Command(
-        "solve", "compare.commands.solve:solve", MOTIONS,
+        "solve", "compare.commands.motions.solve:solve", MOTIONS,
         "Find every bound of one problem, and what limits its fastest motion.",
         "timebound solve sr4c --json sr4c.json",
     ),
     Command(
-        "plan", "compare.commands.plan:plan", MOTIONS,
+        "plan", "compare.commands.motions.plan:plan", MOTIONS,
         "Find the fastest motion through the waypoints, also with stops or given times.",
         "timebound plan ur5 --stop 1 --pass 2=12.5 --export ur5.csv --rate 125",
     ),
     Command(
-        "check", "compare.commands.check:check_motion", MOTIONS,
+        "check", "compare.commands.motions.check:check_motion", MOTIONS,
         "Judge a motion made elsewhere: limits, waypoints, jumps, gap to the bound.",
         "timebound check sr4c motion.csv --interpolation cubic --json verdict.json",
     ),
     Command(
-        "retime", "compare.commands.retime:retime_motion", MOTIONS,
+        "retime", "compare.commands.motions.retime:retime_motion", MOTIONS,
         "Time a path or a motion anew: TOPP-RA, COPP, and freely within a tolerance.",
         "timebound retime path.csv --limits ur5 --tolerance 0.005 --export faster.csv",
     ),
     Command(
-        "split", "compare.commands.split:split", MOTIONS,
+        "split", "compare.commands.motions.split:split", MOTIONS,
         "Show where a swarm's motion loses its time: search, spline, timing, path.",
         "timebound split sr4c --swarm pso --figure split.svg",
     ),
     Command(
-        "motion_picture", "compare.commands.motion_picture:motion_picture", MOTIONS,
+        "motion_picture", "compare.commands.motions.motion_picture:motion_picture", MOTIONS,
         "Draw the arm of a case as it moves along the fastest spline (SVG).",
         "timebound motion_picture sr4c --out sr4c.svg",
     ),
     Command(
-        "check_certificate", "compare.commands.check_certificate:check_certificate", MOTIONS,
+        "check_certificate", "compare.commands.motions.check_certificate:check_certificate", MOTIONS,
         "Prove a certified bound again, by a checker that shares no code with the prover.",
         "timebound check_certificate sr4c.cert.json --problem sr4c",
     ),

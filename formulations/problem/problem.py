@@ -20,7 +20,7 @@ from formulations.problem.joint_words import (
     shown_unit,
 )
 from formulations.problem.limits import LIMITED, Limits, numbers
-from formulations.problem.toml_values import known_keys, read_choice, read_text
+from formulations.problem.toml_file.toml_values import known_keys, read_choice, read_text
 
 __all__ = ["POSITION_SLACK", "POSITION_TOLERANCE", "Limits", "Problem"]
 

@@ -188,7 +188,7 @@ def test_old_spellings_still_work(module: str) -> None:
 def test_a_task_without_a_solution_ends_with_2_and_the_reason(
     monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str], tmp_path: Path
 ) -> None:
-    from compare.commands import motion_picture
+    from compare.commands.motions import motion_picture
 
     def none(problem: Any) -> Any:
         raise NoFeasibleMotion("sr4c: every spline leaves the position limits")
@@ -201,7 +201,7 @@ def test_a_task_without_a_solution_ends_with_2_and_the_reason(
 def test_an_interrupt_is_one_line(
     monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str], tmp_path: Path
 ) -> None:
-    from compare.commands import motion_picture
+    from compare.commands.motions import motion_picture
 
     def interrupted(problem: Any) -> Any:
         raise KeyboardInterrupt
@@ -212,7 +212,7 @@ def test_an_interrupt_is_one_line(
 
 
 def test_a_fault_of_the_program_is_not_taken_for_bad_input(monkeypatch: pytest.MonkeyPatch) -> None:
-    from compare.commands import motion_picture
+    from compare.commands.motions import motion_picture
 
     def broken(problem: Any) -> Any:
         raise ArithmeticError("planted")

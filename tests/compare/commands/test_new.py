@@ -12,7 +12,7 @@ import pytest
 from small_robot import ARM, CSV, YAML
 
 from compare.__main__ import main
-from compare.commands import new as module
+from compare.commands.motions import new as module
 from formulations import load, parse
 
 

@@ -120,7 +120,7 @@ def test_a_problem_without_any_motion_ends_solve_with_2(
 ) -> None:
     from dataclasses import replace
 
-    from compare.commands import solve
+    from compare.commands.motions import solve
     from formulations import Ladder, ladder, load
 
     climbed = ladder(load(str(problem)))

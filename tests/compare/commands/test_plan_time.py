@@ -48,7 +48,7 @@ _SEARCH = {"plan": "free_form", "solve": "ladder"}
 
 def interrupted(after: float, command: str, *arguments: str) -> subprocess.CompletedProcess[str]:
     """Run a command that is interrupted ``after`` seconds of its search, which would take far longer."""
-    where = [f"compare.commands.{command}", _SEARCH[command]]
+    where = [f"compare.commands.motions.{command}", _SEARCH[command]]
     return subprocess.run(
         [sys.executable, "-c", _INTERRUPTED, str(after), *where, command, *arguments],
         capture_output=True, text=True, cwd=ROOT, env={**os.environ}, timeout=60.0, check=False,

@@ -106,7 +106,7 @@ OUTPUTS = {
 @pytest.mark.parametrize(("index", "robot"), list(enumerate(OUTPUTS)))
 def test_each_robot_of_the_docs(index: int, robot: str, folder: Path) -> None:
     import formulations as f
-    from compare.commands.problem_options import OwnRobot
+    from compare.commands.motions.problem_options import OwnRobot
 
     script = blocks(DOCS, "sh")[index]
     said = run(script, folder)

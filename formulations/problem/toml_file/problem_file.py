@@ -12,17 +12,17 @@ from formulations.families import FAMILIES
 from formulations.problem.arrays import Array
 from formulations.problem.errors import InputError
 from formulations.problem.joint_words import UNITS
-from formulations.problem.limit_table import limits_of_robot, limits_of_table
-from formulations.problem.poses import POSED, waypoints_of_poses
 from formulations.problem.problem import Problem
-from formulations.problem.robot_files import (
+from formulations.problem.toml_file.limit_table import limits_of_robot, limits_of_table
+from formulations.problem.toml_file.poses import POSED, waypoints_of_poses
+from formulations.problem.toml_file.robot_files import (
     ROBOT_KEYS,
     read_texts,
     require_few,
     robot_of_keys,
     waypoints_from,
 )
-from formulations.problem.toml_values import (
+from formulations.problem.toml_file.toml_values import (
     known_keys,
     nearest,
     read_choice,

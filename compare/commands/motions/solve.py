@@ -8,6 +8,7 @@ from typing import Annotated, Any
 from cyclopts import Parameter
 
 from compare.commands import BAD_INPUT, DONE, FAILED, INTERRUPTED
+from compare.commands.motions.problem_options import FileOrRobot, OwnRobotOptions, problem_of
 from compare.commands.options import (
     Export,
     Gap,
@@ -19,7 +20,6 @@ from compare.commands.options import (
     Without,
     writable,
 )
-from compare.commands.problem_options import FileOrRobot, OwnRobotOptions, problem_of
 from compare.interrupts import ctrl_c_stops
 from compare.screen import show, stages, table
 from formulations import RUNGS, InputError, Ladder, Problem, ladder

@@ -12,8 +12,8 @@ from formulations.problem.errors import InputError
 from formulations.problem.files import write_text
 from formulations.problem.limits import LIMITED
 from formulations.problem.problem import Problem
-from formulations.problem.problem_file import parse
-from formulations.problem.robot_files import RobotFiles
+from formulations.problem.toml_file.problem_file import parse
+from formulations.problem.toml_file.robot_files import RobotFiles
 
 Numbers = Mapping[str, float]  # by joint name
 _PER = {"velocity": "/s", "acceleration": "/s^2", "jerk": "/s^3"}

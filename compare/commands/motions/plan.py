@@ -10,8 +10,8 @@ import numpy as np
 from cyclopts import Parameter
 
 from compare.commands import DONE, FAILED, INTERRUPTED
+from compare.commands.motions.problem_options import FileOrRobot, OwnRobotOptions, problem_of
 from compare.commands.options import Export, Gap, Json, Rate, TimeLimit
-from compare.commands.problem_options import FileOrRobot, OwnRobotOptions, problem_of
 from compare.interrupts import ctrl_c_stops
 from compare.screen import show, stages
 from formulations import (

@@ -8,7 +8,7 @@ from formulations.arms import joints_of, load_arm, pose_of
 from formulations.arms.arm import METRES
 from formulations.problem.arrays import Array
 from formulations.problem.errors import InputError
-from formulations.problem.toml_values import known_keys, read_choice, read_matrix, shown
+from formulations.problem.toml_file.toml_values import known_keys, read_choice, read_matrix, shown
 
 POSED = ("arm", "pose", "length", "near")  # the keys that stand in place of waypoints
 _POSE_KEYS = ("position", "rpy")

@@ -10,13 +10,13 @@ from typing import TYPE_CHECKING, Annotated, Literal
 from cyclopts import Parameter
 
 from compare.commands import DONE
+from compare.commands.motions.problem_options import names
+from compare.commands.motions.questions import ask, at_a_terminal, limits, numbers, words
 from compare.commands.options import writable
-from compare.commands.problem_options import names
-from compare.commands.questions import ask, at_a_terminal, limits, numbers, words
 from formulations import InputError
 from formulations.problem.joint_words import shown_unit
-from formulations.problem.new_file import NewFile
-from formulations.problem.robot_files import RobotFiles
+from formulations.problem.toml_file.new_file import NewFile
+from formulations.problem.toml_file.robot_files import RobotFiles
 
 if TYPE_CHECKING:
     from formulations.robot import Robot

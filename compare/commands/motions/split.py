@@ -11,8 +11,8 @@ from cyclopts import Parameter
 
 from compare.benchmark.objective import CODINGS
 from compare.commands import DONE
+from compare.commands.motions.problem_options import FileOrRobot, OwnRobotOptions, problem_of
 from compare.commands.options import Budget, Codings, Json, Seed, Swarm, positive, writable
-from compare.commands.problem_options import FileOrRobot, OwnRobotOptions, problem_of
 from compare.screen import show, stages
 from compare.studies.time_split import as_json, as_text, run_and_split, split_figure
 from formulations import InputError

@@ -15,7 +15,7 @@ from formulations.problem.arrays import Array
 from formulations.problem.errors import InputError
 from formulations.problem.problem import Problem
 from formulations.problem.size import MOST_WAYPOINTS
-from formulations.problem.toml_values import read_number, read_text, shown
+from formulations.problem.toml_file.toml_values import read_number, read_text, shown
 
 if TYPE_CHECKING:
     from formulations.robot import Robot

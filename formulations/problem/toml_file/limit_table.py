@@ -11,7 +11,7 @@ from formulations.problem.arrays import Array
 from formulations.problem.errors import InputError
 from formulations.problem.joint_words import UNITS, factors, joint_label, shown_unit
 from formulations.problem.limits import LIMITED, Limits
-from formulations.problem.toml_values import known_keys, read_choice, read_number, shown
+from formulations.problem.toml_file.toml_values import known_keys, read_choice, read_number, shown
 
 if TYPE_CHECKING:
     from formulations.robot import Robot

@@ -72,7 +72,7 @@ class OwnRobot:
     def problem(self) -> Problem:
         """Read the problem that these options state; raises InputError in one line."""
         from formulations import InputError
-        from formulations.problem.robot_files import RobotFiles, problem_from
+        from formulations.problem.toml_file.robot_files import RobotFiles, problem_from
 
         for key, needed in (("robot", self.robot), ("waypoints", self.waypoints)):
             if needed is None:

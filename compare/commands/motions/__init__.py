@@ -1,0 +1,1 @@
+"""Commands about one problem: its fastest motion, its bounds, and motions from elsewhere."""
