@@ -170,7 +170,7 @@ def judge(
     """
     if not (np.isfinite(tolerance) and tolerance > 0.0):
         raise InputError(f"tolerance: {tolerance:g} is not a positive distance")
-    wanted: tuple[str, ...] = tuple(getattr(problem, "names", ()))
+    wanted = problem.names
     names, method = wanted, "pieces"
     if isinstance(motion, MotionPoints):
         points = _in_order_of(wanted, motion)
