@@ -42,7 +42,9 @@ def proof_in_words(checker: Relaxation) -> list[str]:
         of = KINDS[str(raw[0])]
         if str(raw[0]) in "wvardk":
             of += f", joint {checker.claim.joint_name(raw[1])}"
-        lines.append(f"  {float(number(raw[-1])):.6g} x ({_inequality(checker.row(raw), checker.claim)})  [{of}]")
+        lines.append(
+            f"  {float(number(raw[-1])):.6g} x ({_inequality(checker.row(raw), checker.claim)})  [{of}]"
+        )
     return lines
 
 

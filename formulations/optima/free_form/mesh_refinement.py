@@ -17,21 +17,19 @@ from functools import partial
 import numpy as np
 
 from formulations.deadlines import NEVER, Deadline
-from formulations.motion.verdict import check
 from formulations.optima.free_form.ending import SearchEnded, SearchStatus
-from formulations.optima.free_form.faults import finite, missed, outside
+from formulations.optima.free_form.faults import missed, outside
 from formulations.optima.free_form.nlp import ipopt, slp
 from formulations.optima.free_form.nlp.arcs import ArcMotion
 from formulations.optima.free_form.nlp.conditioned import ConditionedProblem
 from formulations.optima.free_form.nlp.program import FreeFormNLP, NLPSolution
 from formulations.optima.free_form.retiming import Refusal, retime
 from formulations.optima.free_form.sensitivity import Sensitivity, read_sensitivity
-from formulations.optima.free_form.stage import Stage, VerifiedMotion
+from formulations.optima.free_form.stage import Stage, VerifiedMotion, judged
 from formulations.optima.free_form.stop_and_go import stop_and_go_motion
 
 ROUNDS = 4  # of meshes, each with half as many arcs again as the one before
 _GUARDS = 6  # solutions on one mesh that may leave the position limits, each in further places
-_STRETCHES = 10  # attempts, the last with a margin of 1e-5
 _MISSED = 1e-6  # of the longest fixed time: more is not met
 _LOOSE, _TIGHT = 1e-6, 1e-9
 
@@ -121,7 +119,7 @@ class MeshRefinement:
         """
         found, refusal = None, motion.reason if isinstance(motion, Refusal) else ""
         if not isinstance(motion, Refusal):
-            found, refusal = self._judged(name, motion)
+            found, refusal = judged(self.task, name, motion)
         seconds = np.inf if found is None else found.verdict.seconds
         now = time.perf_counter()
         self.stages.append(Stage(name, seconds, refusal or status, now - self.clock))
@@ -131,20 +129,6 @@ class MeshRefinement:
         if self.progress is not None:
             self.progress(name, seconds)
         return found
-
-    def _judged(self, name: str, motion: ArcMotion) -> tuple[VerifiedMotion | None, str]:
-        for attempt in range(_STRETCHES):
-            whole = finite(self.task, motion)
-            if whole is None:
-                return None, "the numbers overflow"
-            verdict = check(self.task.problem, whole, conditions=self.task.conditions)
-            if verdict.feasible:
-                return VerifiedMotion(name, motion, whole, verdict), ""
-            if not (self.task.stretchable and verdict.position_kept and 1.0 < verdict.stretch < 2.0):
-                break
-            # assembly rounds the stretched breaks again, so that slightly more may be needed
-            motion = motion.stretched(verdict.stretch * (1.0 + 10.0 ** (attempt - 14)))
-        return None, verdict.faults[0]
 
     def run(self, mesh: int, tolerance: float) -> None:
         """Search until a finer mesh gains less than a tenth of the tolerance.
@@ -174,6 +158,8 @@ class MeshRefinement:
             return
         if self.task.times:
             start = self._nearest(start, mesh)
+            if self.missed > _MISSED:
+                start = self._nearest_from_the_fastest(start, mesh)
             if self.missed > _MISSED:
                 return
         elif self.task.ends.any():  # the closed form starts and ends at rest
@@ -238,6 +224,28 @@ class MeshRefinement:
                 near = finer
         self.missed, self.nearest = missed(self.task, near), near
         return near
+
+    def _nearest_from_the_fastest(self, near: ArcMotion, arcs: int) -> ArcMotion:
+        """Look once more from the fastest motion without fixed times, as each search is a local one.
+
+        It starts with arcs: even steps would miss times that can only just be met.
+        """
+        free = replace(self.task.conditions, total=None, passage={})
+        inner = MeshRefinement(
+            ConditionedProblem(self.task.problem, free), self.solver, None, self.deadline
+        )
+        inner.run(arcs, 1e-3)
+        self._go_on()
+        if inner.best is None:
+            return near
+        name, fastest = "nearest to the given times, from the fastest", inner.best.motion
+        found = self._solved(name, fastest, arcs, free=True, tolerance=_TIGHT, elastic=True)
+        if missed(self.task, found) >= self.missed:
+            return near
+        self.missed, self.nearest = missed(self.task, found), found
+        if self.missed <= _MISSED:
+            self._solved("arcs", found, arcs, free=True, tolerance=_TIGHT)
+        return found
 
     def _fastest_slowed(self, mesh: int) -> None:
         """Slow the fastest motion down to the given time; it may violate other conditions."""

@@ -80,7 +80,9 @@ def test_the_four_commands_of_the_readme(folder: Path) -> None:
     assert len(commands) == 3
     started = time.perf_counter()
     said = run("\n".join(commands), folder)
-    assert time.perf_counter() - started < 180.0  # the user's time, which is mostly the three starts of Python
+    assert (
+        time.perf_counter() - started < 180.0
+    )  # the user's time, which is mostly the three starts of Python
     assert "motion.csv: keeps what mine asks for" in said
     assert "quintics between" in said
     assert "5 of 5 waypoints passed" in said
