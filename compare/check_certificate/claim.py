@@ -80,8 +80,8 @@ def items(value: Any, least: int, most: int) -> list[Any]:
 class Claim:
     """The problem and the bound of a certificate, as exact numbers; None stands for no limit.
 
-    names: of the joints, none or one each; w, d: waypoints and displacements [rad]; limits: of velocity, acceleration, jerk; L: the bound [s];
-    events: the proof, not looked at yet.
+    names: of the joints, none or one each; w, d: waypoints and displacements [rad]; limits: of velocity,
+    acceleration, jerk; L: the bound [s]; events: the proof, not looked at yet.
     """
 
     def __init__(self, data: Any) -> None:

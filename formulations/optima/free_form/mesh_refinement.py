@@ -58,15 +58,13 @@ class MeshRefinement:
         Parameters
         ----------
         task : ConditionedProblem
-        solver : str
-            "ipopt" or "highs".
+        solver : {"ipopt", "highs"}
         progress : callable or None
             Called as ``progress(stage, seconds)``.
         deadline : Deadline
             No stage is begun after it, except the first one, which needs no solver.
         """
-        self.deadline, self.ended = deadline, False
-        self.task, self.progress = task, progress
+        self.deadline, self.ended, self.task, self.progress = deadline, False, task, progress
         self._use(solver)
         self.best: VerifiedMotion | None = None
         self.stages: list[Stage] = []
@@ -226,34 +224,30 @@ class MeshRefinement:
         return near
 
     def _nearest_from_the_fastest(self, near: ArcMotion, arcs: int) -> ArcMotion:
-        """Look once more from the fastest motion without fixed times, as each search is a local one.
-
-        It starts with arcs: even steps would miss times that can only just be met.
-        """
-        free = replace(self.task.conditions, total=None, passage={})
-        inner = MeshRefinement(
-            ConditionedProblem(self.task.problem, free), self.solver, None, self.deadline
-        )
-        inner.run(arcs, 1e-3)
-        self._go_on()
+        """Look once more, from the fastest motion and with arcs: even steps miss times just possible."""
+        inner = self._without_times(arcs)
         if inner.best is None:
             return near
         name, fastest = "nearest to the given times, from the fastest", inner.best.motion
         found = self._solved(name, fastest, arcs, free=True, tolerance=_TIGHT, elastic=True)
-        if missed(self.task, found) >= self.missed:
+        if (off := missed(self.task, found)) >= self.missed:
             return near
-        self.missed, self.nearest = missed(self.task, found), found
+        self.missed, self.nearest = off, found
         if self.missed <= _MISSED:
             self._solved("arcs", found, arcs, free=True, tolerance=_TIGHT)
         return found
 
+    def _without_times(self, mesh: int) -> MeshRefinement:
+        """The search for the fastest motion that need not meet the fixed times."""
+        free = replace(self.task.conditions, total=None, passage={})
+        task = ConditionedProblem(self.task.problem, free)
+        inner = MeshRefinement(task, self.solver, None, self.deadline)
+        inner.run(mesh, 1e-3)
+        return inner
+
     def _fastest_slowed(self, mesh: int) -> None:
         """Slow the fastest motion down to the given time; it may violate other conditions."""
-        task = self.task
-        asked = replace(task.conditions, total=None, passage={})
-        free = ConditionedProblem(task.problem, asked)
-        inner = MeshRefinement(free, self.solver, None, self.deadline)
-        inner.run(mesh, 1e-3)
+        task, inner = self.task, self._without_times(mesh)
         if inner.best is not None:
             motion = inner.best.motion
             factor = task.times[task.n_segments] / float(motion.times.sum())
@@ -321,7 +315,9 @@ class MeshRefinement:
             start = motion
         found = self.offer(name, motion, solution.status)
         if (free or smooth) and not elastic:
-            self._note(solution, found)
+            self.reason = "" if solution.converged else solution.status
+            if solution.converged and found is not None:
+                self.converged = min(self.converged, found.verdict.seconds)
         if free and found is not None and not elastic:
             self._remember(program, solution, found.verdict.seconds)
         return motion
@@ -329,11 +325,6 @@ class MeshRefinement:
     def _go_on(self) -> None:
         if self.deadline.over:
             raise SearchEnded
-
-    def _note(self, solution: NLPSolution, found: VerifiedMotion | None) -> None:
-        self.reason = "" if solution.converged else solution.status
-        if solution.converged and found is not None:
-            self.converged = min(self.converged, found.verdict.seconds)
 
     def _remember(self, program: FreeFormNLP, solution: NLPSolution, seconds: float) -> None:
         if self.deadline.over and not solution.converged:
