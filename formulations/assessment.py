@@ -13,6 +13,7 @@ from formulations.motion.judgement import WAYPOINT_TOLERANCE, Judgement, judge
 from formulations.motion.peaks import Peak
 from formulations.motion.smoothness import Jump
 from formulations.motion.trajectory import Trajectory
+from formulations.problem.conditions import Conditions
 from formulations.problem.problem import Problem
 from formulations.proofs.every_motion.bound import FreeFormBound, free_form_bound
 
@@ -28,7 +29,8 @@ class Assessment:
     problem : Problem
     judgement : Judgement
     bound : FreeFormBound or None
-        The certified lower bound of all motions; None if it was not asked for.
+        The certified lower bound of all motions that keep the conditions, their total time aside; None if
+        it was not asked for.
     holds : tuple of Hold
         How long each limit holds the fastest motion up, to first order, largest first; empty where the
         bound does not say.
@@ -57,6 +59,11 @@ class Assessment:
     def is_near_the_optimum(self) -> bool:
         """Whether the motion is feasible and its gap below 2 % (``NEAR``)."""
         return self.judgement.feasible and self.gap is not None and self.gap < NEAR
+
+    @property
+    def conditions(self) -> Conditions:
+        """What was asked for beyond the problem."""
+        return self.judgement.conditions
 
     def _over(self, seconds: float) -> float | None:
         if self.bound is None or not self.bound.seconds > 0.0:
@@ -93,6 +100,7 @@ class Assessment:
             "stretch_for_limits": found.stretch_for_limits,
             "jumps": [self._jump(jump) for jump in found.jumps],
             "not_at_rest": [self._jump(jump) for jump in found.not_at_rest],
+            "missed_total": found.missed_total,
             "tolerance": found.tolerance,
             "interpolation": found.interpolation,
             "passage_times": found.motion.passage_times.tolist(),
@@ -129,6 +137,7 @@ class Assessment:
             "time": jump.time,
             "size": jump.size,
             "count": jump.count,
+            **({} if jump.waypoint is None else {"waypoint": jump.waypoint + 1}),
         }
 
 
@@ -138,6 +147,7 @@ def assess(
     *,
     interpolation: str = "auto",
     tolerance: float = WAYPOINT_TOLERANCE,
+    conditions: Conditions | None = None,
     bound: bool = True,
     time_limit: float = 20.0,
 ) -> Assessment:
@@ -153,6 +163,9 @@ def assess(
         How the controller joins points.
     tolerance : float, default 1e-4 [rad]
         By how much a waypoint may be missed in each joint.
+    conditions : Conditions, optional
+        What was asked of the motion beyond the problem. The bound is that of the motions that keep it, and
+        says how fast they could be where a total time is asked for.
     bound : bool, default True
         Whether to prove a lower bound.
     time_limit : float, default 20 [s]
@@ -175,12 +188,14 @@ def assess(
     >>> found.judgement.feasible, found.gap < 1e-6
     (True, True)
     """
-    judged = judge(problem, motion, interpolation=interpolation, tolerance=tolerance)
+    asked = conditions or Conditions()
+    judged = judge(problem, motion, interpolation=interpolation, tolerance=tolerance, conditions=asked)
     if not bound:
         return Assessment(problem, judged, None, ())
     # the time of a motion is of use to the proof only if the motion is feasible
     upper = judged.seconds if judged.feasible else None
-    proved = free_form_bound(problem, upper=upper, time_limit=time_limit)
+    free = asked.without_total(problem)
+    proved = free_form_bound(problem, conditions=free, upper=upper, time_limit=time_limit)
     holds: list[Hold] = []
     if proved.savings is not None:
         # raising a limit of order k by 1 % saves 1 / k % of the time that it holds

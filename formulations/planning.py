@@ -9,6 +9,8 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
+from formulations.deadlines import Deadline
+from formulations.deadlines.deadline import Stop
 from formulations.motion.picture import motion_picture
 from formulations.motion.trajectory import Trajectory
 from formulations.motion.verdict import Verdict
@@ -18,6 +20,8 @@ from formulations.problem.conditions import Conditions
 from formulations.problem.errors import InputError
 from formulations.problem.problem import Problem
 from formulations.proofs.every_motion.bound import FreeFormBound, free_form_bound
+
+_PROOF = 20.0  # s for the bound, where the time limit leaves more
 
 if TYPE_CHECKING:
     from matplotlib.figure import Figure
@@ -33,7 +37,8 @@ class PlannedMotion:
     found : FreeForm
         The motion and how it was found.
     proof : FreeFormBound or None
-        The lower bound; None where the conditions ask for what it does not hold for.
+        The lower bound of the motions that keep the same conditions, their total time aside; None if it
+        was not asked for.
     """
 
     problem: Problem
@@ -121,6 +126,8 @@ def plan(
     conditions: Conditions | None = None,
     gap: float = 1e-3,
     bound: bool = True,
+    time_limit: float | None = None,
+    stop: Stop | None = None,
     progress: Callable[[str], None] | None = None,
 ) -> PlannedMotion:
     """Find the fastest motion through the waypoints, and prove how much faster one could be.
@@ -131,11 +138,15 @@ def plan(
         Waypoints and limits.
     conditions : Conditions, optional
         Stops, passage times, a total time, velocities at the ends, limits of single segments. The bound is
-        that of the problem without them; for velocities at the ends and limits of segments there is none.
+        that of the motions that keep them; with a total time it says how fast they could be.
     gap : float, default 1e-3
         Relative gap to be reached.
     bound : bool, default True
-        Whether to prove the lower bound too.
+        Whether to prove the lower bound too, for which it takes 20 s at the most.
+    time_limit : float, optional [s]
+        End after this time, with the best motion that was verified and the best bound that was proved.
+    stop : callable, optional
+        Asked again and again whether to end now, in the same way.
     progress : callable, optional
         Called with one line for each stage.
 
@@ -148,7 +159,8 @@ def plan(
     InputError
         For conditions that do not fit the problem.
     NoFeasibleMotion
-        No motion was found that keeps what was asked for.
+        No motion was found that keeps what was asked for. NotFoundInTime, which is one, where the time ended
+        before a motion was verified.
 
     Examples
     --------
@@ -163,16 +175,24 @@ def plan(
         raise InputError(f"gap: {gap:g} is not positive")
     say = progress or (lambda line: None)
     asked = conditions or Conditions()
+    deadline = Deadline(time_limit, stop)
     found = free_form(
         problem,
         conditions=asked,
         tolerance=gap,
+        time_limit=time_limit,
+        stop=stop,
         progress=lambda what, seconds: say(f"{what}: {seconds:.6g} s"),
     )
     proof = None
-    others = asked.segment_limits or asked.start_velocity is not None or asked.end_velocity is not None
-    if bound and not others:
-        say("what no motion can beat")
-        upper = found.seconds if asked.none and found.trajectory is not None else None
-        proof = free_form_bound(problem, gap=gap, upper=upper)
+    if bound:
+        say("how fast any motion could be")
+        proof = free_form_bound(
+            problem,
+            conditions=asked.without_total(problem),
+            gap=gap,
+            upper=None if found.trajectory is None else found.seconds,
+            time_limit=deadline.within(_PROOF).left,
+            stop=stop,
+        )
     return PlannedMotion(problem, found, proof)

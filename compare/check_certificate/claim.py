@@ -9,6 +9,7 @@ from compare.check_certificate.answers import BadInput, need
 from compare.check_certificate.balls import R, least, most
 
 FORMAT = "timebound certificate 1"
+LONGEST_NAME = 100  # characters
 MOST_EVENTS, MOST_SEGMENTS, MOST_JOINTS = 3_000_000, 50, 50
 
 
@@ -79,8 +80,8 @@ def items(value: Any, least: int, most: int) -> list[Any]:
 class Claim:
     """The problem and the bound of a certificate, as exact numbers; None stands for no limit.
 
-    w, d: waypoints and displacements [rad]; limits: of velocity, acceleration, jerk; L: the bound [s];
-    events: the proof, not looked at yet.
+    names: of the joints, none or one each; w, d: waypoints and displacements [rad]; limits: of velocity,
+    acceleration, jerk; L: the bound [s]; events: the proof, not looked at yet.
     """
 
     def __init__(self, data: Any) -> None:
@@ -91,6 +92,11 @@ class Claim:
         self.dof = len(items(rows[0], 1, MOST_JOINTS))
         self.w = [[number(x) for x in items(row, self.dof, self.dof)] for row in rows]
         self.n = len(rows) - 1
+        self.names = [str(name) for name in items(data.get("names", []), 0, self.dof)]
+        if len(self.names) not in (0, self.dof) or not all(
+            name.isprintable() and len(name) <= LONGEST_NAME for name in self.names
+        ):
+            raise BadInput(f"names: {self.names!r:.40} are no names of {self.dof} joints")
         limits = data.get("limits")
         if not isinstance(limits, dict):
             raise BadInput("limits: missing")
@@ -118,6 +124,20 @@ class Claim:
         # the prover widens the limits by a thousandth more
         self.slack *= R(1001) / 1000
 
+    def joint_name(self, j: int) -> str:
+        """Say which joint is meant: its name, or its number from 1 where it has none.
+
+        Parameters
+        ----------
+        j : int
+            The joint, from 0.
+
+        Returns
+        -------
+        str
+        """
+        return self.names[j] if self.names else f"{j + 1}"
+
     def limit(self, order: int, j: int) -> Any:
         """Look up a limit that a row poses.
 
@@ -134,7 +154,7 @@ class Claim:
             The limit. Refuses the certificate if there is none.
         """
         value = self.limits[order - 1][j]
-        need(value is not None, f"a row poses a limit that joint {j + 1} does not have")
+        need(value is not None, f"a row poses a limit that joint {self.joint_name(j)} does not have")
         return value
 
     def room(self, k: int, j: int, sign: int) -> Any:
@@ -153,7 +173,7 @@ class Claim:
             The room. Refuses the certificate if there is no such limit.
         """
         bound: Any = self.position[j][sign > 0]
-        need(bound is not None, f"a row poses a limit that joint {j + 1} does not have")
+        need(bound is not None, f"a row poses a limit that joint {self.joint_name(j)} does not have")
         far = most(sign * bound, *(sign * row[j] for row in self.w))
         return far - sign * self.w[k][j] + self.slack
 

@@ -1,4 +1,4 @@
-"""The arm of a case as a moving stick figure, in one small SVG.
+"""The arm of a case, or a robot of a URDF, as a moving stick figure in one small SVG.
 
 Two views show the same motion in true time, with the tool's path and the waypoints; shadows show the arm
 at each waypoint. The animation is SMIL, which browsers run without a script. Other programs, and browsers
@@ -10,6 +10,7 @@ from __future__ import annotations
 from collections.abc import Sequence
 from dataclasses import dataclass
 from html import escape
+from typing import TYPE_CHECKING
 
 import numpy as np
 
@@ -17,6 +18,9 @@ from compare.report.style import BLUE, GREEN, GREY, VERMILION
 from formulations import FAMILIES, InputError, Problem, Trajectory
 from formulations.arms import ARMS, Arm, load_arm
 from formulations.problem.arrays import Array
+
+if TYPE_CHECKING:
+    from formulations.robot import Robot
 
 _RATE = 25.0  # frames a second, of true time
 _FEWEST, _MOST = 24, 180  # frames
@@ -69,18 +73,21 @@ def arm_of(case: str) -> Arm | None:
     return load_arm(name) if name in ARMS else None
 
 
-def skeleton(arm: Arm, joints: Array) -> Array:
-    """Return the arm as a chain of points: each link goes along d first, then along a.
+def skeleton(arm: Arm | Robot, joints: Array) -> Array:
+    """Return the arm as a chain of points: each Denavit-Hartenberg link goes along d first, then along a.
 
     Parameters
     ----------
-    arm : Arm
-    joints : Array, shape (..., dof) [rad]
+    arm : Arm or Robot
+    joints : Array, shape (..., dof) [rad or m]
 
     Returns
     -------
-    Array, shape (..., 2 dof + 1, 3) [m]
+    Array, shape (..., n_points, 3) [m]
+        2 dof + 1 points of an arm; base, joints and tip of a robot.
     """
+    if not isinstance(arm, Arm):
+        return arm.chain.points(joints)
     frames = arm.chain.frames(joints)
     origin, axis = frames[..., :3, 3], frames[..., :3, 2]
     elbow = origin[..., :-1, :] + arm.chain.d[:, None] * axis[..., :-1, :]
@@ -112,14 +119,14 @@ def fastest_spline(case: str, problem: Problem, durations: Array) -> str | None:
     return draw_motion_picture(arm, trajectory, title)
 
 
-def draw_motion_picture(arm: Arm, trajectory: Trajectory, title: str) -> str:
+def draw_motion_picture(arm: Arm | Robot, trajectory: Trajectory, title: str) -> str:
     """Draw a motion of an arm as an animated SVG.
 
     Parameters
     ----------
-    arm : Arm
+    arm : Arm or Robot
     trajectory : Trajectory
-        The motion of all its joints [rad].
+        The motion of all its joints [rad or m].
     title : str
         The line above the picture.
 

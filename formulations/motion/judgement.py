@@ -7,7 +7,7 @@ searched for, and every value is an exact extreme in continuous time.
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 import numpy as np
 
@@ -22,6 +22,8 @@ from formulations.problem.errors import InputError
 from formulations.problem.problem import Problem
 
 WAYPOINT_TOLERANCE = 1e-4  # rad (or m) by which a waypoint may be missed: files and tables are rounded
+TIME_TOLERANCE = 1e-5  # s by which the whole motion may take another time than asked for
+STILL = 1e-3  # of the velocity and acceleration limits: less counts as standing still at a stop
 _MOST = 1e-6  # relative excess that counts as rounding, however short the pieces are
 _STEPS = 400  # roundings of a position between the points of a file and a derivative of its pieces
 _DEGREES = {2: "linear", 4: "cubic", 6: "quintic"}
@@ -38,7 +40,7 @@ class Miss:
     distance : float
         Position less waypoint of this joint [rad].
     time : float
-        When the motion is nearest [s].
+        When the motion is nearest, or when it should be there [s].
     """
 
     waypoint: int
@@ -68,9 +70,12 @@ class Judgement:
     jumps : tuple of Jump
         Where pieces do not fit together: the largest of each quantity and joint.
     not_at_rest : tuple of Jump
-        What moves at the start or the end.
+        What moves at the start, the end or a stop; where velocities are asked for at the ends, what
+        differs from them.
     missed : tuple of Miss
-        Waypoints that are not passed, in their order.
+        Waypoints that are not passed, in their order; at the time asked for, where there is one.
+    conditions : Conditions
+        What was asked for beyond the problem.
     """
 
     motion: Trajectory
@@ -82,6 +87,7 @@ class Judgement:
     jumps: tuple[Jump, ...]
     not_at_rest: tuple[Jump, ...]
     missed: tuple[Miss, ...]
+    conditions: Conditions
 
     @property
     def seconds(self) -> float:
@@ -91,7 +97,26 @@ class Judgement:
     @property
     def feasible(self) -> bool:
         """Whether nothing is wrong."""
-        return not (self.violations or self.jumps or self.not_at_rest or self.missed)
+        faults = (self.violations, self.jumps, self.not_at_rest, self.missed)
+        return not any(faults) and self.missed_total is None
+
+    @property
+    def missed_total(self) -> float | None:
+        """The total time asked for, where the motion takes another one [s]."""
+        last = len(self.motion.passage_times) - 1
+        asked = self.conditions.passage.get(last, self.conditions.total)
+        return None if asked is None or abs(self.seconds - asked) <= TIME_TOLERANCE else asked
+
+    @property
+    def is_paced(self) -> bool:
+        """Whether times or velocities are asked for, so that no uniform stretch is allowed."""
+        asked = self.conditions
+        ends = (asked.start_velocity, asked.end_velocity)
+        return (
+            bool(asked.passage)
+            or asked.total is not None
+            or any(np.any(v) for v in ends if v is not None)
+        )
 
     @property
     def stretch_for_limits(self) -> float:
@@ -105,11 +130,13 @@ class Judgement:
     def is_mended_by_stretch(self) -> bool:
         """Whether a uniform stretch mends all that is wrong."""
         positions = any(peak.quantity == "position" for peak in self.violations)
-        return not (positions or self.jumps or self.not_at_rest or self.missed)
+        return not (positions or self.jumps or self.not_at_rest or self.missed or self.is_paced)
 
     @property
     def stretch(self) -> float:
         """Least factor on all durations that makes the motion feasible; infinite where none does."""
+        if self.is_paced and self.feasible:
+            return 1.0
         return self.stretch_for_limits if self.is_mended_by_stretch else np.inf
 
 
@@ -119,6 +146,7 @@ def judge(
     *,
     interpolation: str = "auto",
     tolerance: float = WAYPOINT_TOLERANCE,
+    conditions: Conditions | None = None,
 ) -> Judgement:
     """Judge a motion from elsewhere in continuous time, joint by joint.
 
@@ -132,6 +160,10 @@ def judge(
         How the controller joins points; ``auto`` takes the highest degree that the points allow.
     tolerance : float, default 1e-4
         By how much a waypoint may be missed in each joint [rad].
+    conditions : Conditions, optional
+        What is asked for beyond the problem. A waypoint with a passage time has to be within the
+        tolerance at that time, and the whole motion may differ from a total time by 1e-5 s. At a stop,
+        less than a thousandth of the velocity and acceleration limits counts as standing still.
 
     Returns
     -------
@@ -140,7 +172,8 @@ def judge(
     Raises
     ------
     InputError
-        The number or the names of the joints do not fit, or the points do not allow the interpolation.
+        The conditions do not fit the problem, the number or the names of the joints do not fit, or the
+        points do not allow the interpolation.
 
     See Also
     --------
@@ -170,10 +203,12 @@ def judge(
     """
     if not (np.isfinite(tolerance) and tolerance > 0.0):
         raise InputError(f"tolerance: {tolerance:g} is not a positive distance")
+    asked = conditions or Conditions()
+    asked.validate(problem)
     wanted = problem.names
     names, method = wanted, "pieces"
     if isinstance(motion, MotionPoints):
-        points = _in_order_of(wanted, motion)
+        points = in_order_of(wanted, motion)
         names = names or points.names
         trajectory = points.motion(interpolation)
         method = _DEGREES[trajectory.coefficients.shape[2]]
@@ -181,14 +216,14 @@ def judge(
         trajectory = motion
     if trajectory.dof != problem.dof:
         raise InputError(f"motion: {trajectory.dof} joints, the problem has {problem.dof}")
-    passed = passages(trajectory, problem.waypoints)
+    passed = passages(trajectory, problem.waypoints, asked.passage)
     trajectory = Trajectory(trajectory.durations, trajectory.coefficients, passed.times)
     peaks = sorted(
-        peaks_of_joints(problem, trajectory, Conditions()),
+        peaks_of_joints(problem, trajectory, asked),
         key=lambda peak: (peak.factor > 1.0, peak.urgency),
         reverse=True,
     )
-    limits = problem.limits.derivatives
+    limits = asked.derivatives(problem).max(axis=1)
     over = [TOLERANCE * np.ones(problem.dof)]
     over += [_rounding(trajectory, order, limits[order - 1]) for order in (1, 2, 3)]
     sizes = [np.ptp(problem.waypoints, axis=0), *limits[:2]]
@@ -196,6 +231,9 @@ def judge(
         _rounding(trajectory, order, _size(trajectory, order, sizes[order])) for order in range(3)
     ]
     ends = np.array([0.0, trajectory.seconds])
+    moving = motion_at(problem, trajectory, ends, asked.end_velocities(problem), smooth)
+    for stop in sorted(asked.stops - {0, problem.n_segments}):
+        moving += _moving_at(problem, trajectory, stop, tolerance, stop in asked.passage)
     return Judgement(
         motion=trajectory,
         interpolation=method,
@@ -208,13 +246,30 @@ def judge(
             if peak.factor > 1.0 + over[QUANTITIES.index(peak.quantity)][peak.joint]
         ),
         jumps=tuple(jumps(problem, trajectory, smooth)),
-        not_at_rest=tuple(motion_at(problem, trajectory, ends, relative=smooth)),
+        not_at_rest=tuple(moving),
         missed=tuple(_missed(passed.misses, passed.times, tolerance)),
+        conditions=asked,
     )
 
 
-def _in_order_of(names: tuple[str, ...], points: MotionPoints) -> MotionPoints:
-    """Points with their joints in the order of the problem, where both have names."""
+def in_order_of(names: tuple[str, ...], points: MotionPoints) -> MotionPoints:
+    """Put the joints of points in the order of a problem's, where both have names.
+
+    Parameters
+    ----------
+    names : tuple of str
+        The joints of the problem; empty where they have no names.
+    points : MotionPoints
+
+    Returns
+    -------
+    MotionPoints
+
+    Raises
+    ------
+    InputError
+        They have other names.
+    """
     if not names or not points.names or points.names == names:
         return points
     if set(points.names) != set(names):
@@ -222,6 +277,25 @@ def _in_order_of(names: tuple[str, ...], points: MotionPoints) -> MotionPoints:
             f"motion: joints {', '.join(points.names)}, the problem has {', '.join(names)}"
         )
     return points.in_order(names)
+
+
+def _moving_at(
+    problem: Problem, trajectory: Trajectory, stop: int, tolerance: float, at_once: bool
+) -> list[Jump]:
+    """What moves where the motion is slowest while it is at a waypoint; at_once: its time is asked for."""
+    times = trajectory.passage_times[[stop]]
+    if not at_once:
+        before, after = trajectory.passage_times[[stop - 1, stop + 1]]
+        meet = trajectory.breaks[(trajectory.breaks > before) & (trajectory.breaks < after)]
+        off = np.abs(trajectory.at(meet) - problem.waypoints[stop]).max(axis=1)
+        times = np.append(times, meet[off <= tolerance])
+    limits = problem.limits
+    speed = np.abs(trajectory.at(times, 1)) / limits.velocity
+    gained = np.abs(trajectory.at(times, 2)) / limits.acceleration * np.isfinite(limits.jerk)
+    slowest = times[[int(np.maximum(speed, gained).max(axis=1).argmin())]]
+    still = np.full(problem.dof, STILL)
+    found = motion_at(problem, trajectory, slowest, relative=[still] * 3)
+    return [replace(jump, waypoint=stop) for jump in found]
 
 
 def _missed(misses: Array, times: Array, tolerance: float) -> list[Miss]:

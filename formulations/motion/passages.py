@@ -7,6 +7,7 @@ each waypoint are the candidates, and dynamic programming chooses among them.
 
 from __future__ import annotations
 
+from collections.abc import Mapping
 from dataclasses import dataclass
 
 import numpy as np
@@ -38,7 +39,9 @@ class Passages:
     misses: Array
 
 
-def passages(trajectory: Trajectory, waypoints: Array) -> Passages:
+def passages(
+    trajectory: Trajectory, waypoints: Array, fixed: Mapping[int, float] | None = None
+) -> Passages:
     """Find the times at which a motion passes waypoints in their order.
 
     Parameters
@@ -47,6 +50,8 @@ def passages(trajectory: Trajectory, waypoints: Array) -> Passages:
         The motion.
     waypoints : Array, shape (n_waypoints, dof) [rad]
         Positions to pass, at least two; the first at the start and the last at the end.
+    fixed : mapping of int to float, optional
+        Times at which inner waypoints have to be passed [s]: the misses are those at these times.
 
     Returns
     -------
@@ -55,6 +60,9 @@ def passages(trajectory: Trajectory, waypoints: Array) -> Passages:
     """
     candidates = [np.array([0.0]), *_approaches(trajectory, waypoints[1:-1])]
     candidates.append(np.array([trajectory.seconds]))
+    for waypoint, time in (fixed or {}).items():
+        if 0 < waypoint < len(waypoints) - 1:
+            candidates[waypoint] = np.array([min(time, trajectory.seconds)])
     distances = [
         np.abs(trajectory.at(times) - waypoint).max(axis=1)
         for times, waypoint in zip(candidates, waypoints, strict=True)

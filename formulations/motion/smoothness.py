@@ -35,6 +35,8 @@ class Jump:
         By how much the value changes at once [rad/s^k].
     count : int
         Number of times at which this quantity of this joint jumps.
+    waypoint : int or None
+        From 0: the waypoint that is a stop, where the motion should have stood still.
     """
 
     quantity: str
@@ -42,6 +44,7 @@ class Jump:
     time: float
     size: float
     count: int
+    waypoint: int | None = None
 
 
 def jumps(

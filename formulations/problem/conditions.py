@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Mapping
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, replace
 
 import numpy as np
 
@@ -51,6 +51,21 @@ class Conditions:
         """Whether nothing is asked for."""
         given = (self.total, self.start_velocity, self.end_velocity)
         return not (self.passage or self.stops or self.segment_limits) and all(v is None for v in given)
+
+    def without_total(self, problem: Problem) -> Conditions:
+        """Drop what fixes the total time, so that the fastest motion under the others can be asked for.
+
+        Parameters
+        ----------
+        problem : Problem
+            Its number of segments gives the last waypoint.
+
+        Returns
+        -------
+        Conditions
+        """
+        passage = {k: time for k, time in self.passage.items() if k != problem.n_segments}
+        return replace(self, total=None, passage=passage)
 
     def validate(self, problem: Problem) -> None:
         """Refuse conditions that do not fit a problem.

@@ -1,6 +1,7 @@
 """The certificate of a proof: plain data, and a JSON file with every float as hexadecimal text.
 
-    format, family, name; waypoints, limits (null: unlimited), position_slack [rad]; seconds: the bound
+    format, family, name; names of the joints, none or one each; waypoints, limits (null: unlimited),
+    position_slack [rad]; seconds: the bound
     short      null, or for a middle segment of 3-5-3 on which nothing moves: tau, and what discards
                T2 <= tau, from the longest T1 down: ["p", lo, hi, joint, order, place, sign] a limit
                inside it, ["l", lo, hi] the last segment, for T1 in [lo, hi]
@@ -81,6 +82,7 @@ def certificate_of(
         "format": FORMAT,
         "family": problem.family if horizon is None else "every-motion",
         "name": problem.name,
+        "names": list(problem.names),
         "waypoints": _hex(problem.waypoints),
         "limits": {
             "velocity": _hex(limits.velocity),

@@ -10,8 +10,14 @@ from typing import Any
 import numpy as np
 
 from formulations.problem.errors import InputError
-from formulations.robot.joint_limits import LARGEST_LIMITS, check_names, laid_over, parse_limits
-from formulations.robot.joints import QUANTITIES, UNLIMITED, Joint, Mimic, limited_by
+from formulations.robot.joint_limits import (
+    LARGEST_LIMITS,
+    LimitsFile,
+    check_names,
+    laid_over,
+    parse_limits,
+)
+from formulations.robot.joints import QUANTITIES, UNLIMITED, Joint, JointKind, Mimic, limited_by
 from formulations.robot.kinematics import leader_of
 from formulations.robot.robot import Robot
 from formulations.robot.srdf import LARGEST_SRDF, parse_group
@@ -84,22 +90,12 @@ def robot_of(
         raise InputError(f"srdf: {srdf} is given without a group of it (group=...)")
     else:
         names = _chosen(tree, joints)
-    files = _listed("limits", limits)
-    read = [parse_limits(decode(read_bytes(f, largest=LARGEST_LIMITS), str(f)), str(f)) for f in files]
+    read = _limits_files(limits)
     known = {joint.name: joint.joint for joint in tree.joints}
     for file in read:
         check_names(file, known)
-    factors = {
-        "velocity": _factor("velocity_scaling", velocity_scaling, [f.velocity_scaling for f in read]),
-        "acceleration": _factor(
-            "acceleration_scaling", acceleration_scaling, [f.acceleration_scaling for f in read]
-        ),
-        "jerk": _factor("jerk_scaling", jerk_scaling, []),
-    }
-    free = _listed("unlimited", unlimited)
-    for quantity in free:
-        if quantity not in _FREE:
-            raise InputError(f"unlimited: {shown(quantity)}; {known_names(str(quantity), _FREE)}")
+    factors = _factors(read, velocity_scaling, acceleration_scaling, jerk_scaling)
+    free = _unlimited(unlimited)
     in_force = {
         name: _in_force(laid_over(joint, read), factors, free)
         for name, joint in known.items()
@@ -123,6 +119,87 @@ def robot_of(
         tip=_link(tree, "tip", tip) or ends[1] or named[names[-1]].child,
         urdf=tree,
     )
+
+
+def robot_of_joints(
+    names: Sequence[str] | None = None,
+    *,
+    prismatic: Sequence[str] = (),
+    limits: str | Path | Iterable[str | Path] | None = None,
+    velocity_scaling: float | None = None,
+    acceleration_scaling: float | None = None,
+    jerk_scaling: float | None = None,
+    unlimited: str | Iterable[str] = (),
+) -> Robot:
+    """Make a robot without a URDF: names of joints and limits, no kinematics.
+
+    Parameters
+    ----------
+    names : sequence of str, optional
+        The joints to move, in this order; those of the limits files, in theirs, if left out.
+    prismatic : sequence of str, optional
+        Those of them whose positions are lengths.
+    limits, velocity_scaling, acceleration_scaling, jerk_scaling, unlimited : optional
+        As in ``robot_of``.
+
+    Returns
+    -------
+    Robot
+        Its ``limits`` raises where one is still missing.
+
+    Raises
+    ------
+    InputError
+        One line that names file, line, joint, value, and what is allowed or nearest.
+    """
+    read = _limits_files(limits)
+    known = tuple(dict.fromkeys(name for file in read for name in file.joints))
+    moved = known if names is None else tuple(names)
+    if not moved:
+        raise InputError("joints: missing: neither they nor a file names the joints")
+    for index, name in enumerate(moved):
+        if name in moved[:index]:
+            raise InputError(f"joints: joint {shown(name)} is given twice")
+        if known and name not in known:
+            raise InputError(
+                f"joints: no limits file has joint {shown(name)}; {known_names(name, known)}"
+            )
+    for name in prismatic:
+        if name not in moved:
+            raise InputError(f"prismatic: no joint {shown(name)}; {known_names(name, moved)}")
+    factors = _factors(read, velocity_scaling, acceleration_scaling, jerk_scaling)
+    free = _unlimited(unlimited)
+    kinds = dict.fromkeys(prismatic, JointKind.PRISMATIC)
+    joints = [Joint(name, kinds.get(name, JointKind.REVOLUTE)) for name in moved]
+    return Robot("joints", tuple(_in_force(laid_over(j, read), factors, free) for j in joints))
+
+
+def _limits_files(given: Any) -> list[LimitsFile]:
+    """What the limits files say, in their order."""
+    files = _listed("limits", given)
+    return [parse_limits(decode(read_bytes(f, largest=LARGEST_LIMITS), str(f)), str(f)) for f in files]
+
+
+def _factors(
+    read: Sequence[LimitsFile], velocity: float | None, acceleration: float | None, jerk: float | None
+) -> dict[str, float]:
+    """Factors on the limits in force: those given, or else those of the files."""
+    return {
+        "velocity": _factor("velocity_scaling", velocity, [f.velocity_scaling for f in read]),
+        "acceleration": _factor(
+            "acceleration_scaling", acceleration, [f.acceleration_scaling for f in read]
+        ),
+        "jerk": _factor("jerk_scaling", jerk, []),
+    }
+
+
+def _unlimited(given: Any) -> list[Any]:
+    """The quantities that a joint may have no limit of."""
+    free = _listed("unlimited", given)
+    for quantity in free:
+        if quantity not in _FREE:
+            raise InputError(f"unlimited: {shown(quantity)}; {known_names(str(quantity), _FREE)}")
+    return free
 
 
 def _listed(key: str, given: Any) -> list[Any]:

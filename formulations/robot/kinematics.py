@@ -123,6 +123,30 @@ class LinkChain:
             pose = pose @ step.before @ step.motion(flat) @ step.after
         return np.asarray((pose @ self.end).reshape(*q.shape[:-1], 4, 4))
 
+    def points(self, joints: ArrayLike) -> Array:
+        """Where base, joints and tip are: the robot as a chain of straight links, to be drawn.
+
+        Parameters
+        ----------
+        joints : array_like, shape (..., dof)
+            Joint positions [rad or m].
+
+        Returns
+        -------
+        Array, shape (..., n_steps + 3, 3)
+            In the base link: its origin, each joint, what the last one moves, and the tip [m].
+        """
+        q = np.asarray(joints, dtype=np.float64)
+        flat = q.reshape(-1, self.dof)
+        pose = np.broadcast_to(np.eye(4), (len(flat), 4, 4))
+        found = [pose[:, :3, 3]]
+        for step in self.steps:
+            pose = pose @ step.before
+            found.append(pose[:, :3, 3])
+            pose = pose @ step.motion(flat) @ step.after
+        found += [pose[:, :3, 3], (pose @ self.end)[:, :3, 3]]
+        return np.stack(found, axis=1).reshape(*q.shape[:-1], len(found), 3)
+
     def pose_and_jacobian(self, joints: Array) -> tuple[Array, Array]:
         """Pose of the tip, and its velocity and angular velocity per joint velocity.
 

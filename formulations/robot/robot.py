@@ -39,8 +39,8 @@ class Robot:
         The joints that follow one of them.
     base, tip : str
         The links that a Cartesian pose is measured from and given for.
-    urdf : Urdf
-        The whole tree.
+    urdf : Urdf or None
+        The whole tree; None for joints alone, which have no kinematics.
     """
 
     name: str
@@ -133,7 +133,8 @@ class Robot:
         """
         message = missing_limits(self.joints)
         if message is not None:
-            raise InputError(f"robot {shown(self.name)}: {message}")
+            whose = "" if self.urdf is None else f"robot {shown(self.name)}: "
+            raise InputError(f"{whose}{message}")
         rows = [[getattr(joint, name) for joint in self.joints] for name in QUANTITIES]
         return Limits.of(*rows, dof=self.dof, units=self.units, names=self.names)
 

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import time
 from pathlib import Path
 
 import matplotlib as mpl
@@ -67,14 +68,31 @@ def test_answers_print_short() -> None:
         assert "array" not in repr(thing)
 
 
-def test_conditions_that_the_bound_does_not_hold_for_leave_it_out() -> None:
+def test_the_bound_is_that_of_the_conditions_without_their_total_time() -> None:
     problem = f.Problem([[0.0], [1.0]], {"velocity": 1, "acceleration": 1})
     fast = f.plan(problem, conditions=f.Conditions(start_velocity=np.array([1.0])))
-    assert fast.bound is None
-    assert fast.gap is None
-    assert fast.seconds < 2.0  # less than from rest
+    # 1.5 s: from 1 rad/s on, half a radian at top speed, then braking for 1 s; proved is the way at top speed
+    assert fast.seconds == pytest.approx(1.5, rel=1e-6)
+    assert fast.bound == pytest.approx(1.0)
     slow = f.plan(problem, conditions=f.Conditions(total=3.0))
     assert slow.gap == pytest.approx(0.5, abs=1e-3)
+
+
+def test_a_time_limit_and_a_stop_end_the_search_with_a_verified_motion() -> None:
+    rng = np.random.default_rng(1)
+    waypoints = rng.uniform(-2.0, 2.0, (60, 6))
+    limits = {"velocity": 1.0, "acceleration": 3.0, "jerk": 20.0}
+    problem = f.Problem(waypoints, limits)
+    started = time.perf_counter()
+    motion = f.plan(problem, time_limit=2.0)
+    assert time.perf_counter() - started < 60.0  # wide: the machine may be busy
+    times = np.linspace(0.0, motion.seconds, 20_001)
+    for order, limit in enumerate(limits.values(), 1):
+        assert np.abs(motion.trajectory.at(times, order)).max() <= limit * (1.0 + 1e-7)
+    assert motion.bound is not None
+    assert motion.bound <= motion.seconds
+    with pytest.raises(f.InputError, match="time_limit"):
+        f.plan(problem, time_limit=-1.0)
 
 
 @pytest.mark.parametrize(

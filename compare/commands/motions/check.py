@@ -8,9 +8,16 @@ import numpy as np
 from cyclopts import Parameter
 
 from compare.commands import BROKEN, DONE
-from compare.commands.options import Json, ProblemFile, positive
+from compare.commands.motions.condition_options import ConditionOptions, conditions_of
+from compare.commands.motions.problem_options import (
+    FileOrRobot,
+    OwnRobot,
+    OwnRobotOptions,
+    problem_of,
+)
+from compare.commands.options import Json, positive
 from compare.screen import show, stages, table
-from formulations import load
+from formulations import InputError
 from formulations.assessment import Assessment, assess
 from formulations.motion.files.motion_file import read_points
 from formulations.motion.judgement import WAYPOINT_TOLERANCE
@@ -22,12 +29,18 @@ _LINES = 8  # of a table of what holds the motion up, and of jumps
 
 
 def check_motion(
-    problem: ProblemFile,
+    file: FileOrRobot = None,
     motion: Annotated[
-        str, Parameter(name="MOTION", help="The motion: CSV, or a ROS JointTrajectory (JSON).")
-    ],
+        str | None,
+        Parameter(
+            name="MOTION",
+            help="The motion: .csv, .json or .yaml (a ROS JointTrajectory), .npz or .pieces.json.",
+        ),
+    ] = None,
     /,
     *,
+    own: OwnRobotOptions = None,
+    asked: ConditionOptions = None,
     interpolation: Literal["auto", "linear", "cubic", "quintic"] = "auto",
     tolerance: Annotated[
         float, Parameter(name="--tolerance", metavar="RAD", validator=positive)
@@ -39,8 +52,8 @@ def check_motion(
 
     The points of the file are joined as joint_trajectory_controller joins them: by straight lines where
     they have positions alone, by cubics where they have velocities too, by quintics where they have
-    accelerations too. The motion between them is judged in continuous time, by exact extremes. Joints and
-    waypoints count from 1.
+    accelerations too. The motion between them is judged in continuous time, by exact extremes. In what is
+    found, joints and waypoints count from 1. Without FILE, MOTION stands alone before --robot.
 
     Exit code: 0 if the motion keeps everything, 3 if it breaks something, 2 for bad input.
 
@@ -53,11 +66,23 @@ def check_motion(
     bound
         Prove a bound that no motion beats, and show the gap to it (seconds of work).
     """
-    posed = load(problem)
+    if motion is None and own is not None and own != OwnRobot():
+        file, motion = None, file
+    if motion is None:
+        raise InputError("MOTION: missing: a problem FILE and MOTION are needed, or MOTION and --robot")
+    problem = problem_of(file, own)
+    conditions = conditions_of(asked, problem)
     points = read_points(motion)
-    with stages(posed.name) as stage:
+    with stages(problem.name) as stage:
         stage("extremes, waypoints, bound")
-        found = assess(posed, points, interpolation=interpolation, tolerance=tolerance, bound=bound)
+        found = assess(
+            problem,
+            points,
+            interpolation=interpolation,
+            tolerance=tolerance,
+            conditions=conditions,
+            bound=bound,
+        )
     show(as_text(motion, found), found.to_json(), json)
     return DONE if found.judgement.feasible else BROKEN
 
@@ -107,14 +132,22 @@ def _faults(found: Assessment) -> list[str]:
         rows = [_limit_row(found, peak) for peak in judged.violations]
         lines += ["", table(header, rows, right=(2, 3, 4, 5))]
     jumps = [(jump, f"{jump.count} of {len(judged.motion.durations) - 1}") for jump in judged.jumps]
-    rests = [(jump, "at the ends") for jump in judged.not_at_rest]
-    for title, found_jumps in (("jump between pieces", jumps), ("not at rest", rests)):
+    rests = [(jump, _place(jump)) for jump in judged.not_at_rest]
+    for title, found_jumps in (
+        ("jump between pieces", jumps),
+        ("not at rest" if judged.conditions.none else "not as asked for", rests),
+    ):
         if found_jumps:
             header = [title, "joint", "time", "size", "where"]
             rows = [_jump_row(found, jump, where) for jump, where in found_jumps]
             lines += ["", table(header, rows, right=(2, 3))]
+    if judged.missed_total is not None:
+        lines += ["", f"it takes {judged.seconds:.9g} s; asked for were {judged.missed_total:.9g} s"]
     if judged.missed:
         header = ["missed waypoint", "joint", "nearest at", "off by"]
+        asked = judged.conditions.passage
+        if asked:
+            header[2] = "nearest, or asked, at"
         rows = [
             [
                 f"{miss.waypoint + 1} of {len(found.problem.waypoints)}",
@@ -133,19 +166,21 @@ def _mending(found: Assessment) -> list[str]:
     judged = found.judgement
     factor = judged.stretch_for_limits
     if judged.feasible:
-        if 0.0 < factor < 1.0 - 1e-6:
+        if 0.0 < factor < 1.0 - 1e-6 and not judged.is_paced:
             return [f"at the same pace throughout it could take {factor:.6g} times its time"]
         return []
     if judged.is_mended_by_stretch:
         return [
             f"stretched by {factor:.6g}, to {factor * judged.seconds:.6g} s, it would keep everything"
         ]
+    places = dict.fromkeys(_place(jump) for jump in judged.not_at_rest)
     kinds = " and ".join(dict.fromkeys(jump.quantity for jump in judged.jumps))
     reasons = {
         "a position limit is broken": any(p.quantity == "position" for p in judged.violations),
         "waypoints are missed": judged.missed,
         f"the {kinds} jumps": judged.jumps,
-        "it is not at rest at its ends": judged.not_at_rest,
+        f"it moves {' and '.join(places)}": places,
+        "times or velocities are asked for": judged.is_paced,
     }
     why = [reason for reason, holds in reasons.items() if holds]
     lines = [f"no uniform stretch mends it: {', '.join(why)}"]
@@ -159,7 +194,8 @@ def _distance(found: Assessment) -> list[str]:
     judged, bound = found.judgement, found.bound
     if bound is None or found.gap is None:
         return []
-    lines = [f"no motion that keeps the limits takes less than {bound.seconds:.6g} s (proved)"]
+    what = "the limits" if judged.conditions.none else "the limits and conditions"
+    lines = [f"no motion that keeps {what} takes less than {bound.seconds:.6g} s (proved)"]
     if judged.feasible:
         lines[0] += f"; this one: {100.0 * found.gap:.3g} % more"
     elif found.gap < 0.0:
@@ -185,6 +221,11 @@ def _holding(found: Assessment) -> list[str]:
     header = ["limit used most", "joint", "time", "value", "limit", "factor"]
     rows = [_limit_row(found, peak) for peak in used[:_LINES]]
     return ["", table(header, rows, right=(2, 3, 4, 5))]
+
+
+def _place(jump: Jump) -> str:
+    """Where the motion moves though it should not."""
+    return "at the ends" if jump.waypoint is None else f"at waypoint {jump.waypoint + 1}, a stop"
 
 
 def _limit_row(found: Assessment, peak: Peak) -> list[str]:

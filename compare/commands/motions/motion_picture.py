@@ -1,48 +1,63 @@
-"""``timebound motion_picture CASE``: the arm of a case in motion, as an SVG."""
+"""``timebound motion_picture FILE``: the arm of a problem in motion, as an SVG."""
 
 from __future__ import annotations
 
 from pathlib import Path
-from typing import Annotated
+from typing import TYPE_CHECKING, Annotated
 
 from cyclopts import Parameter
 
 from compare.commands import DONE
+from compare.commands.motions.problem_options import FileOrRobot, OwnRobotOptions, problem_of
 from compare.commands.options import writable
 from compare.files import write_text
-from compare.report.motion_picture import arm_of, fastest_spline
+from compare.report.motion_picture import arm_of, draw_motion_picture
 from compare.screen import stages
-from formulations import CASES, InputError, family_optimum, load
+from formulations import CASES, FAMILIES, InputError, family_optimum
+from formulations.problem.toml_file.problem_file import arm_in
 
-_WITH_ARM = [case for case in CASES if arm_of(case) is not None]
+if TYPE_CHECKING:
+    from formulations.arms import Arm
+    from formulations.robot import Robot
 
 
 def motion_picture(
-    case: Annotated[
-        str, Parameter(name="CASE", help=f"A shipped case with an arm: {', '.join(_WITH_ARM)}.")
-    ],
+    file: FileOrRobot = None,
     /,
     *,
+    own: OwnRobotOptions = None,
     out: Annotated[str | None, Parameter(metavar="FILE", validator=writable)] = None,
 ) -> int:
-    """Draw the arm of a case as it moves along the fastest spline of its family.
+    """Draw the arm of a problem as it moves along the fastest spline of its family.
 
-    The picture shows two views in true time. It moves in any browser, without a script.
+    The arm is that of the case, of the key robot or arm in FILE, or of --robot. The picture shows two views in
+    true time. It moves in any browser, without a script.
 
     Parameters
     ----------
     out
-        The file to be written; CASE.svg if left out.
+        The file to be written; named after the problem if left out.
     """
-    if case not in _WITH_ARM:
-        raise InputError(f"CASE: no arm is known for {case!r} (known: {', '.join(_WITH_ARM)})")
-    problem = load(case)
-    with stages(case) as stage:
+    problem = problem_of(file, own)
+    arm: Arm | Robot | None
+    if file is None:
+        arm = own.files.read() if own is not None and own.robot is not None else None
+    else:
+        arm = arm_of(file) if file in CASES else arm_in(file)
+    if arm is None:
+        known = ", ".join(case for case in CASES if arm_of(case) is not None)
+        raise InputError(
+            f"{file or '--limits'}: no arm is known (cases with one: {known}); "
+            "the key or option robot names a URDF"
+        )
+    with stages(problem.name) as stage:
         stage(f"fastest {problem.family} spline")
         optimum = family_optimum(problem)
-    picture = fastest_spline(case, problem, optimum.durations)
-    assert picture is not None  # the case has an arm
-    path = Path(out or f"{case}.svg")
-    write_text(path, picture)
+    trajectory = FAMILIES[problem.family].trajectory(problem, optimum.durations)
+    title = (
+        f"{getattr(arm, 'title', arm.name)}: fastest {problem.family} spline, {optimum.seconds:.4f} s"
+    )
+    path = Path(out or f"{problem.name if file is None else Path(file).stem}.svg")
+    write_text(path, draw_motion_picture(arm, trajectory, title))
     print(f"{path}: {optimum.seconds:.4f} s, {path.stat().st_size / 1000:.0f} kB")
     return DONE

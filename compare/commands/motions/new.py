@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from dataclasses import replace
 from functools import partial
 from pathlib import Path
@@ -17,6 +18,7 @@ from formulations import InputError
 from formulations.problem.joint_words import shown_unit
 from formulations.problem.toml_file.new_file import NewFile
 from formulations.problem.toml_file.robot_files import RobotFiles
+from formulations.problem.toml_file.toml_values import nearest
 
 if TYPE_CHECKING:
     from formulations.robot import Robot
@@ -47,6 +49,7 @@ def new(
     velocity: PerJoint = None,
     acceleration: PerJoint = None,
     jerk: PerJoint = None,
+    prismatic: Annotated[str | None, Parameter(metavar="NAME,..")] = None,
     waypoints: Annotated[str | None, Parameter(metavar="FILE")] = None,
     waypoint: Annotated[
         tuple[str, ...],
@@ -73,7 +76,7 @@ def new(
     unit
         Unit of all angles; rad if left out.
     from_urdf
-        The robot. Without it, joints and limits are written out.
+        The robot. Without it, joints and limits are those of --limits and --waypoints, or are written out.
     srdf
         MoveIt's description of the groups.
     group
@@ -90,10 +93,12 @@ def new(
         The same for accelerations.
     jerk
         The same for jerks.
+    prismatic
+        Without --from-urdf: the joints whose positions are in m.
     waypoints
-        With --from-urdf: a .csv table of positions or poses, or a JointTrajectory.
+        A .csv table of positions (or of poses, with --from-urdf), or a JointTrajectory.
     waypoint
-        One waypoint, a number per joint; several times, in order.
+        One waypoint in place of a file of them, a number per joint; several times, in order.
     force
         Replace a file that is there.
     """
@@ -101,28 +106,27 @@ def new(
     if path.exists() and not force:
         raise InputError(f"--out: {path} is there already; --force replaces it")
     given = {"velocity": velocity, "acceleration": acceleration, "jerk": jerk}
-    if from_urdf is None:
-        for key, value in (
-            ("srdf", srdf),
-            ("group", group),
-            ("limits", limits_file),
-            ("waypoints", waypoints),
-        ):
-            if value:
-                raise InputError(f"--{key}: needs a robot (--from-urdf URDF)")
-        file = _without_robot(
-            name or path.stem, unit, names(joints), given, waypoint, names(unlimited) or ()
-        )
+    if waypoints is not None and waypoint:
+        raise InputError("--waypoint: given beside --waypoints; leave one of them out")
+    for key, value in (("srdf", srdf), ("group", group)):
+        if value and from_urdf is None:
+            raise InputError(f"--{key}: needs a robot (--from-urdf URDF)")
+    if from_urdf is not None and prismatic is not None:
+        raise InputError("--prismatic: given beside --from-urdf, whose URDF says it; leave it out")
+    files = RobotFiles(
+        robot=None if from_urdf is None else Path(from_urdf),
+        joints=names(joints),
+        group=group,
+        srdf=None if srdf is None else Path(srdf),
+        limits=tuple(Path(entry) for entry in limits_file),
+        unlimited=names(unlimited) or (),
+        prismatic=names(prismatic) or (),
+        waypoints=None if waypoints is None else Path(waypoints),
+    )
+    if from_urdf is None and not limits_file and waypoints is None:
+        file = _written_out(name or path.stem, unit, files, given, waypoint)
     else:
-        robot = RobotFiles(
-            robot=Path(from_urdf),
-            joints=names(joints),
-            group=group,
-            srdf=None if srdf is None else Path(srdf),
-            limits=tuple(Path(entry) for entry in limits_file),
-            unlimited=names(unlimited) or (),
-        )
-        file = _with_robot(name or path.stem, unit, robot, given, waypoints, waypoint)
+        file = _with_files(name or path.stem, unit, files, given, waypoint)
     problem = file.write(path, force=force)
     print(f"{path}: written, {len(problem.waypoints)} waypoints of {problem.dof} joints")
     for hint in problem.hints:
@@ -131,18 +135,15 @@ def new(
     return DONE
 
 
-def _with_robot(
+def _with_files(
     name: str,
     unit: str | None,
     files: RobotFiles,
     given: dict[str, str | None],
-    waypoints: str | None,
     rows: tuple[str, ...],
 ) -> NewFile:
-    """The file for a robot: only what its files leave out is asked for."""
+    """The file for a robot or for limits and waypoints from files: only what these leave out is asked for."""
     robot = files.read()
-    if waypoints is not None and rows:
-        raise InputError("--waypoint: given beside --waypoints; leave one of them out")
     angle = unit or _unit()
     found: dict[str, dict[str, float]] = {}
     free: list[str] = []
@@ -166,21 +167,29 @@ def _with_robot(
     files = replace(files, unlimited=tuple(dict.fromkeys((*files.unlimited, *free))))
     robot = files.read()
     _require_limits(robot, found)
-    points: list[list[float]] = []
-    if waypoints is None:
-        if not rows and at_a_terminal():
-            waypoints = ask("file of waypoints", lambda text: words(text)[0])
-        elif not rows:
+    points = [_row(row, robot.dof) for row in rows]
+    if files.waypoints is None and not points:
+        if not at_a_terminal():
             raise InputError("--waypoints: missing: a file, or --waypoint X,.. several times")
-        points = [_row(row, robot.dof) for row in rows]
-    return NewFile(
-        name=name,
-        unit=angle,
-        robot=files,
-        waypoints_file=None if waypoints is None else Path(waypoints),
-        waypoints=points,
-        limits=found,
-    )
+        text = ask("file of waypoints; nothing: they are typed here", str)
+        if text:
+            files = replace(files, waypoints=Path(text))
+        else:
+            points = _typed_rows(robot.names, robot.units, angle)
+    return NewFile(name=name, unit=angle, robot=files, waypoints=points, limits=found)
+
+
+def _typed_rows(names: Sequence[str], units: Sequence[str], angle: str) -> list[list[float]]:
+    """Waypoints that a person types, row by row."""
+    columns = ", ".join(f"{n} [{shown_unit(u, angle)}]" for n, u in zip(names, units, strict=True))
+    points: list[list[float]] = []
+    while row := ask(
+        f"waypoint {len(points) + 1}: {columns}"
+        + ("; nothing ends the list" if len(points) > 1 else ""),
+        lambda text: _row(text, len(names)) if text or len(points) < 2 else [],
+    ):
+        points.append(row)
+    return points
 
 
 def _require_limits(robot: Robot, found: dict[str, dict[str, float]]) -> None:
@@ -191,20 +200,23 @@ def _require_limits(robot: Robot, found: dict[str, dict[str, float]]) -> None:
         raise InputError(f"{error}; or give --velocity, --acceleration, --jerk, --unlimited") from None
 
 
-def _without_robot(
+def _written_out(
     name: str,
     unit: str | None,
-    joints: tuple[str, ...] | None,
+    files: RobotFiles,
     given: dict[str, str | None],
     rows: tuple[str, ...],
-    unlimited: tuple[str, ...],
 ) -> NewFile:
     """The file with joints and limits written out."""
-    asking = at_a_terminal()
+    asking, joints, unlimited = at_a_terminal(), files.joints, files.unlimited
     if joints is None and not asking:
         raise InputError("--joints: missing: names of the joints, or a robot (--from-urdf URDF)")
     joints = joints or ask("names of the joints, such as shoulder, elbow", words)
     angle = unit or _unit()
+    for slide in files.prismatic:
+        if slide not in joints:
+            raise InputError(f"--prismatic: no joint {slide!r}{nearest(slide, joints)}")
+    units = ["m" if joint in files.prismatic else "rad" for joint in joints]
     found: dict[str, dict[str, float]] = {}
     for order, quantity in enumerate(_QUANTITIES, 1):
         if quantity in unlimited:
@@ -213,7 +225,7 @@ def _without_robot(
         if text is not None:
             values = _limits(quantity, text, len(joints))
         elif asking:
-            per = shown_unit("rad", angle, order)
+            per = " or ".join(dict.fromkeys(shown_unit(own, angle, order) for own in units))
             values = ask(
                 f"{quantity} limits [{per}], one for all joints or one per joint{_or_none(quantity)}",
                 partial(_read_limits, quantity=quantity, count=len(joints)),
@@ -223,14 +235,17 @@ def _without_robot(
         found[quantity] = dict(zip(joints, values, strict=bool(values)))
     points = [_row(row, len(joints)) for row in rows]
     if asking and not points:
-        while row := ask(
-            f"waypoint {len(points) + 1} [{angle}], a number per joint; nothing ends the list",
-            lambda text: _row(text, len(joints)) if text or len(points) < 2 else [],
-        ):
-            points.append(row)
+        points = _typed_rows(joints, units, angle)
     if len(points) < 2:
         raise InputError(f"--waypoint: {len(points)} given; a motion needs two or more")
-    return NewFile(name=name, unit=angle, joints=joints, waypoints=points, limits=found)
+    return NewFile(
+        name=name,
+        unit=angle,
+        joints=joints,
+        prismatic=files.prismatic,
+        waypoints=points,
+        limits=found,
+    )
 
 
 def _or_none(quantity: str) -> str:

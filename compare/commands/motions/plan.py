@@ -3,44 +3,32 @@
 from __future__ import annotations
 
 import sys
-from math import isfinite
-from typing import Annotated
-
-import numpy as np
-from cyclopts import Parameter
 
 from compare.commands import DONE, FAILED, INTERRUPTED
+from compare.commands.motions.condition_options import ConditionOptions, conditions_of
 from compare.commands.motions.problem_options import FileOrRobot, OwnRobotOptions, problem_of
 from compare.commands.options import Export, Gap, Json, Rate, TimeLimit
 from compare.interrupts import ctrl_c_stops
 from compare.screen import show, stages
 from formulations import (
-    Conditions,
     FreeForm,
     FreeFormBound,
     InputError,
     NoFeasibleMotion,
     NotFoundInTime,
     Problem,
-    free_form,
-    free_form_bound,
 )
-from formulations.deadlines import Deadline
+from formulations import plan as find_motion
 from formulations.motion.verdict import QUANTITIES
 from formulations.optima.at_rate.export import check_export, export_motion
 from formulations.optima.free_form import SearchStatus
-from formulations.problem.arrays import Array
-from formulations.problem.joint_words import factors, shown_unit
+from formulations.problem.joint_words import shown_unit
 from formulations.proofs.status import BoundStatus
-
-_PROOF = 20.0  # s for the bound, where the time limit leaves more
 
 _CUT_SHORT = {
     SearchStatus.TIME_LIMIT: "the time limit ended the search",
     SearchStatus.INTERRUPTED: "Ctrl-C ended the search",
 }
-
-Velocities = Annotated[str | None, Parameter(metavar="V,V,..", allow_leading_hyphen=True)]
 
 
 def plan(
@@ -48,11 +36,7 @@ def plan(
     /,
     *,
     own: OwnRobotOptions = None,
-    stop: Annotated[list[int] | None, Parameter(metavar="K")] = None,
-    passage: Annotated[list[str] | None, Parameter(name="--pass", metavar="K=T")] = None,
-    total: Annotated[float | None, Parameter(metavar="T")] = None,
-    start_velocity: Velocities = None,
-    end_velocity: Velocities = None,
+    asked: ConditionOptions = None,
     gap: Gap = 1e-3,
     time_limit: TimeLimit = None,
     no_bound: bool = False,
@@ -62,62 +46,35 @@ def plan(
 ) -> int:
     """Find the fastest motion through the waypoints of a problem, or the smoothest in a given time.
 
-    Waypoints count from 0, the start. --stop and --pass can be given several times. Ctrl-C ends the search
-    with the best motion that was verified until then, and exit code 130.
+    Ctrl-C ends the search with the best motion that was verified until then, and exit code 130.
 
     Parameters
     ----------
-    stop
-        Stand still at waypoint K.
-    passage
-        Pass waypoint K at T seconds.
-    total
-        Take T seconds, as smoothly as possible.
-    start_velocity
-        Velocity at the start, one number per joint, in the unit of the file (deg/s where it has degrees).
-    end_velocity
-        Velocity at the end, in the same way.
     no_bound
         Prove nothing about how fast any motion could be, which saves some seconds.
     """
     problem = problem_of(file, own)
-    conditions = Conditions(
-        passage=_passages(passage or []),
-        total=total,
-        stops=frozenset(stop or []),
-        start_velocity=_velocity("--start-velocity", start_velocity, problem),
-        end_velocity=_velocity("--end-velocity", end_velocity, problem),
-    )
+    conditions = conditions_of(asked, problem)
     if export is not None:
         check_export(export, problem, rate, conditions)
-    deadline = Deadline(time_limit)
     try:
         with ctrl_c_stops() as asked_to_stop, stages(problem.name) as stage:
-            found = free_form(
+            motion = find_motion(
                 problem,
                 conditions=conditions,
-                tolerance=gap,
+                gap=gap,
+                bound=not no_bound,
                 time_limit=time_limit,
                 stop=asked_to_stop,
-                progress=lambda what, seconds: stage(f"{what}: {seconds:.6g} s"),
+                progress=stage,
             )
-            bound = None
-            if not (no_bound or found.trajectory is None or conditions.total is not None):
-                stage("how fast any motion could be")
-                bound = free_form_bound(
-                    problem,
-                    conditions=conditions,
-                    gap=gap,
-                    upper=found.seconds,
-                    time_limit=deadline.within(_PROOF).left,
-                    stop=asked_to_stop,
-                )
             interrupted = asked_to_stop()
     except NotFoundInTime as reason:
         print(f"error: {problem.name}: {reason}", file=sys.stderr)
         return INTERRUPTED if asked_to_stop() else FAILED
     except NoFeasibleMotion as reason:
         raise NoFeasibleMotion(f"{problem.name}: {reason}") from None
+    found, bound = motion.found, motion.proof
     text = as_text(problem, found, bound)
     if export is not None:
         if found.trajectory is None:
@@ -126,33 +83,6 @@ def plan(
         text = "\n".join([text, "", *written.lines()])
     show(text, as_json(problem, found, bound), json)
     return INTERRUPTED if interrupted else DONE
-
-
-def _passages(texts: list[str]) -> dict[int, float]:
-    """Passage times [s] by waypoint."""
-    passages = {}
-    for text in texts:
-        waypoint, separator, time = text.partition("=")
-        try:
-            passages[int(waypoint)] = float(time)
-        except ValueError:
-            separator = ""
-        if not separator:
-            raise InputError(f"--pass: {text!r} is not of the form K=T, such as 2=1.5")
-    return passages
-
-
-def _velocity(key: str, text: str | None, problem: Problem) -> Array | None:
-    """Velocities of the joints, (dof,) [rad/s], from numbers in the unit of the file."""
-    if text is None:
-        return None
-    try:
-        values = [float(part) for part in text.split(",")]
-    except ValueError:
-        raise InputError(f"{key}: {text!r} is not a list of numbers") from None
-    if len(values) != problem.dof or not all(isfinite(value) for value in values):
-        raise InputError(f"{key}: expected {problem.dof} finite numbers, got {text!r}")
-    return np.array(values) * factors(problem.units, problem.display_unit)
 
 
 def as_text(problem: Problem, found: FreeForm, bound: FreeFormBound | None = None) -> str:
@@ -178,7 +108,7 @@ def as_text(problem: Problem, found: FreeForm, bound: FreeFormBound | None = Non
     if found.trajectory is None or found.verdict is None:
         return lines[0]
     if bound is not None:
-        lines.append(_proved(bound))
+        lines.append(_proved(bound, found.conditions.total is not None))
     passed = ", ".join(f"{time:.6g}" for time in found.trajectory.passage_times)
     lines.append(f"waypoints passed at {passed} s")
     lines.append("verified: keeps every limit; used most:")
@@ -187,10 +117,12 @@ def as_text(problem: Problem, found: FreeForm, bound: FreeFormBound | None = Non
     return "\n".join([*lines, *found.notes])
 
 
-def _proved(bound: FreeFormBound) -> str:
-    """How fast any motion could be, in one line."""
+def _proved(bound: FreeFormBound, timed: bool) -> str:
+    """How fast any motion could be, in one line; timed: whether the motion takes a time that was asked for."""
     if not bound.seconds > 0.0:
         return f"no bound was proved ({bound.ending})"
+    if timed:
+        return f"without a total time: proved that no motion takes less than {bound.seconds:.9g} s"
     line = f"proved: no such motion takes less than {bound.seconds:.9g} s, gap {bound.gap or 0.0:.2g}"
     return line if bound.status is BoundStatus.PROVED else f"{line} ({bound.ending})"
 

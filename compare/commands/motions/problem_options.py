@@ -1,20 +1,22 @@
-"""How a command is told its problem: a file, or a robot's files and its waypoints in place of one.
+"""How a command is told its problem: a file, or files of limits and waypoints, with a URDF or without.
 
-A command has two parameters for it, ``file: FileOrRobot = None`` and ``own: OwnRobotOptions = None``, and
-calls ``problem_of(file, own)``.
+Every command about a problem has two parameters for it, ``file: FileOrRobot = None`` and
+``own: OwnRobotOptions = None``, and calls ``problem_of(file, own)``.
 """
 
 from __future__ import annotations
 
 import sys
-from dataclasses import dataclass, fields
+from dataclasses import dataclass, fields, replace
 from pathlib import Path
 from typing import TYPE_CHECKING, Annotated, Literal
 
 from cyclopts import Group, Parameter
 
 if TYPE_CHECKING:
-    from formulations import Problem
+    from formulations import Limits, Problem
+    from formulations.motion.files.motion_points import MotionPoints
+    from formulations.problem.toml_file.robot_files import RobotFiles
 
 _ROBOT = Group("In place of FILE", sort_key=10)
 
@@ -22,7 +24,7 @@ FileOrRobot = Annotated[
     str | None,
     Parameter(
         name="FILE",
-        help="A problem file (TOML), or the name of a shipped case; or --robot and --waypoints in its place.",
+        help="A problem file (TOML), or the name of a shipped case; or --robot, --limits and --waypoints.",
     ),
 ]
 
@@ -49,7 +51,11 @@ class OwnRobot:
     ] = None
     joints: Annotated[
         str | None,
-        Parameter(metavar="NAME,..", help="The joints that move, in order; all if left out."),
+        Parameter(
+            metavar="NAME,..",
+            help="The joints that move, in order; all if left out, or without --robot those that the "
+            "waypoints name.",
+        ),
     ] = None
     group: Annotated[str | None, Parameter(help="A group of the SRDF in place of --joints.")] = None
     srdf: Annotated[
@@ -69,24 +75,44 @@ class OwnRobot:
         None
     )
 
-    def problem(self) -> Problem:
-        """Read the problem that these options state; raises InputError in one line."""
-        from formulations import InputError
-        from formulations.problem.toml_file.robot_files import RobotFiles, problem_from
+    prismatic: Annotated[
+        str | None,
+        Parameter(metavar="NAME,..", help="Without --robot: the joints whose positions are in m."),
+    ] = None
 
-        for key, needed in (("robot", self.robot), ("waypoints", self.waypoints)):
-            if needed is None:
-                raise InputError(f"--{key}: missing; --robot URDF and --waypoints FILE go together")
-        files = RobotFiles(
-            robot=Path(self.robot or ""),
+    @property
+    def files(self) -> RobotFiles:
+        """The files that these options name."""
+        from formulations.problem.toml_file.robot_files import RobotFiles
+
+        return RobotFiles(
+            robot=_path(self.robot),
             joints=names(self.joints),
             group=self.group,
-            srdf=None if self.srdf is None else Path(self.srdf),
+            srdf=_path(self.srdf),
             limits=tuple(Path(path) for path in self.limits),
             unlimited=names(self.unlimited) or (),
             tip=self.tip,
+            prismatic=names(self.prismatic) or (),
+            waypoints=_path(self.waypoints),
         )
-        return problem_from(files, Path(self.waypoints or ""), unit=self.unit or "rad")
+
+    def problem(self) -> Problem:
+        """Read the problem that these options state; raises InputError in one line."""
+        from formulations import InputError
+        from formulations.problem.toml_file.robot_files import problem_from
+
+        if self.robot is None and not self.limits:
+            raise InputError("--robot: missing: --robot URDF or --limits YAML goes with --waypoints")
+        if self.robot is not None and self.prismatic is not None:
+            raise InputError("--prismatic: given beside --robot, whose URDF says it; leave it out")
+        if self.waypoints is None:
+            raise InputError("--waypoints: missing; it goes with --robot URDF or --limits YAML")
+        return problem_from(self.files, unit=self.unit or "rad")
+
+
+def _path(text: str | None) -> Path | None:
+    return None if text is None else Path(text)
 
 
 OwnRobotOptions = Annotated[OwnRobot | None, Parameter(name="*")]
@@ -125,6 +151,55 @@ def problem_of(file: str | None, own: OwnRobot | None) -> Problem:
     for hint in problem.hints:
         print(f"hint: {hint}", file=sys.stderr)
     return problem
+
+
+def limits_for(points: MotionPoints, own: OwnRobot | None) -> tuple[MotionPoints, Limits]:
+    """Read the limits that a path is to be timed under, and put its joints in their order.
+
+    Parameters
+    ----------
+    points : MotionPoints
+        The path; its names say which joints move where the options do not.
+    own : OwnRobot or None
+        ``--limits`` names YAML files, with ``--robot`` or alone, or else a problem file or a shipped case.
+
+    Returns
+    -------
+    points : MotionPoints
+    limits : Limits
+
+    Raises
+    ------
+    InputError
+        There are no limits, or the joints do not fit.
+    """
+    from formulations import InputError, load
+    from formulations.motion.judgement import in_order_of
+
+    own = own or OwnRobot()
+    if own.waypoints is not None:
+        raise InputError("--waypoints: not used here: the points of MOTION are the path")
+    if own.robot is None and not own.limits:
+        raise InputError(
+            "--limits: missing: a problem file, a shipped case, or YAML with --robot or alone"
+        )
+    problem_file = [f for f in own.limits if Path(f).suffix.lower() not in (".yaml", ".yml")]
+    if problem_file:
+        (file, *more) = problem_file
+        if more or own != OwnRobot(limits=(file,)):
+            raise InputError(f"--limits: {file} is a problem file, which stands alone")
+        posed = load(file)
+        limits, wanted, whose = posed.limits, posed.names, file
+    else:
+        files = own.files
+        if files.joints is None and files.group is None and points.names:
+            files = replace(files, joints=points.names)
+        robot = files.read()
+        limits, wanted, whose = robot.limits, robot.names, own.robot or own.limits[0]
+    count, given = len(limits.velocity), points.positions.shape[1]
+    if given != count:
+        raise InputError(f"MOTION: {given} joints, {whose} has {count}")
+    return in_order_of(wanted, points), limits
 
 
 def names(text: str | None) -> tuple[str, ...] | None:

@@ -8,9 +8,10 @@ import numpy as np
 from cyclopts import Parameter
 
 from compare.commands import DONE
+from compare.commands.motions.problem_options import OwnRobotOptions, limits_for
 from compare.commands.options import Export, Json, Rate, positive
 from compare.screen import show, stages, table
-from formulations import InputError, NoFeasibleMotion, load, write_motion
+from formulations import NoFeasibleMotion, write_motion
 from formulations.assessment import Assessment
 from formulations.motion.files.motion_file import read_points
 from formulations.motion.judgement import judge
@@ -25,7 +26,7 @@ def retime_motion(
     ],
     /,
     *,
-    limits: Annotated[str, Parameter(name="--limits", metavar="FILE")],
+    own: OwnRobotOptions = None,
     tolerance: Annotated[float, Parameter(metavar="RAD", validator=positive)] = 1e-2,
     way: Literal["toppra", "copp", "free_form"] | None = None,
     export: Export = None,
@@ -38,21 +39,19 @@ def retime_motion(
     motion of all through some points of the path that stays within a tolerance of it. A motion that
     breaks a limit is stretched until it keeps it.
 
+    --limits names MoveIt's YAML, with --robot or alone (the joints are then those that MOTION names), or a
+    problem file or a shipped case, whose waypoints do not count.
+
     Parameters
     ----------
-    limits
-        A problem file (TOML) or the name of a shipped case; its limits count, its waypoints do not.
     tolerance
         How far the third motion may leave the straight lines between the points, in joint space.
     way
         The motion that --export writes; the fastest one that keeps every limit if left out.
     """
-    posed = load(limits)
-    points = read_points(motion)
-    if points.positions.shape[1] != posed.dof:
-        raise InputError(f"{motion}: {points.positions.shape[1]} joints, {limits} has {posed.dof}")
+    points, limits = limits_for(read_points(motion), own)
     with stages(motion) as stage:
-        ways = retime(points, posed.limits, tolerance=tolerance, progress=stage)
+        ways = retime(points, limits, tolerance=tolerance, progress=stage)
     text = as_text(motion, len(points.times), tolerance, ways)
     if export is not None:
         text += f"\n\n{_export(export, rate, ways, way, Path.of(points))}"

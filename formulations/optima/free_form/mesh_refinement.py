@@ -17,21 +17,19 @@ from functools import partial
 import numpy as np
 
 from formulations.deadlines import NEVER, Deadline
-from formulations.motion.verdict import check
 from formulations.optima.free_form.ending import SearchEnded, SearchStatus
-from formulations.optima.free_form.faults import finite, missed, outside
+from formulations.optima.free_form.faults import missed, outside
 from formulations.optima.free_form.nlp import ipopt, slp
 from formulations.optima.free_form.nlp.arcs import ArcMotion
 from formulations.optima.free_form.nlp.conditioned import ConditionedProblem
 from formulations.optima.free_form.nlp.program import FreeFormNLP, NLPSolution
 from formulations.optima.free_form.retiming import Refusal, retime
 from formulations.optima.free_form.sensitivity import Sensitivity, read_sensitivity
-from formulations.optima.free_form.stage import Stage, VerifiedMotion
+from formulations.optima.free_form.stage import Stage, VerifiedMotion, judged
 from formulations.optima.free_form.stop_and_go import stop_and_go_motion
 
 ROUNDS = 4  # of meshes, each with half as many arcs again as the one before
 _GUARDS = 6  # solutions on one mesh that may leave the position limits, each in further places
-_STRETCHES = 10  # attempts, the last with a margin of 1e-5
 _MISSED = 1e-6  # of the longest fixed time: more is not met
 _LOOSE, _TIGHT = 1e-6, 1e-9
 
@@ -60,15 +58,13 @@ class MeshRefinement:
         Parameters
         ----------
         task : ConditionedProblem
-        solver : str
-            "ipopt" or "highs".
+        solver : {"ipopt", "highs"}
         progress : callable or None
             Called as ``progress(stage, seconds)``.
         deadline : Deadline
             No stage is begun after it, except the first one, which needs no solver.
         """
-        self.deadline, self.ended = deadline, False
-        self.task, self.progress = task, progress
+        self.deadline, self.ended, self.task, self.progress = deadline, False, task, progress
         self._use(solver)
         self.best: VerifiedMotion | None = None
         self.stages: list[Stage] = []
@@ -121,7 +117,7 @@ class MeshRefinement:
         """
         found, refusal = None, motion.reason if isinstance(motion, Refusal) else ""
         if not isinstance(motion, Refusal):
-            found, refusal = self._judged(name, motion)
+            found, refusal = judged(self.task, name, motion)
         seconds = np.inf if found is None else found.verdict.seconds
         now = time.perf_counter()
         self.stages.append(Stage(name, seconds, refusal or status, now - self.clock))
@@ -131,20 +127,6 @@ class MeshRefinement:
         if self.progress is not None:
             self.progress(name, seconds)
         return found
-
-    def _judged(self, name: str, motion: ArcMotion) -> tuple[VerifiedMotion | None, str]:
-        for attempt in range(_STRETCHES):
-            whole = finite(self.task, motion)
-            if whole is None:
-                return None, "the numbers overflow"
-            verdict = check(self.task.problem, whole, conditions=self.task.conditions)
-            if verdict.feasible:
-                return VerifiedMotion(name, motion, whole, verdict), ""
-            if not (self.task.stretchable and verdict.position_kept and 1.0 < verdict.stretch < 2.0):
-                break
-            # assembly rounds the stretched breaks again, so that slightly more may be needed
-            motion = motion.stretched(verdict.stretch * (1.0 + 10.0 ** (attempt - 14)))
-        return None, verdict.faults[0]
 
     def run(self, mesh: int, tolerance: float) -> None:
         """Search until a finer mesh gains less than a tenth of the tolerance.
@@ -174,6 +156,8 @@ class MeshRefinement:
             return
         if self.task.times:
             start = self._nearest(start, mesh)
+            if self.missed > _MISSED:
+                start = self._nearest_from_the_fastest(start, mesh)
             if self.missed > _MISSED:
                 return
         elif self.task.ends.any():  # the closed form starts and ends at rest
@@ -239,13 +223,31 @@ class MeshRefinement:
         self.missed, self.nearest = missed(self.task, near), near
         return near
 
+    def _nearest_from_the_fastest(self, near: ArcMotion, arcs: int) -> ArcMotion:
+        """Look once more, from the fastest motion and with arcs: even steps miss times just possible."""
+        inner = self._without_times(arcs)
+        if inner.best is None:
+            return near
+        name, fastest = "nearest to the given times, from the fastest", inner.best.motion
+        found = self._solved(name, fastest, arcs, free=True, tolerance=_TIGHT, elastic=True)
+        if (off := missed(self.task, found)) >= self.missed:
+            return near
+        self.missed, self.nearest = off, found
+        if self.missed <= _MISSED:
+            self._solved("arcs", found, arcs, free=True, tolerance=_TIGHT)
+        return found
+
+    def _without_times(self, mesh: int) -> MeshRefinement:
+        """The search for the fastest motion that need not meet the fixed times."""
+        free = replace(self.task.conditions, total=None, passage={})
+        task = ConditionedProblem(self.task.problem, free)
+        inner = MeshRefinement(task, self.solver, None, self.deadline)
+        inner.run(mesh, 1e-3)
+        return inner
+
     def _fastest_slowed(self, mesh: int) -> None:
         """Slow the fastest motion down to the given time; it may violate other conditions."""
-        task = self.task
-        asked = replace(task.conditions, total=None, passage={})
-        free = ConditionedProblem(task.problem, asked)
-        inner = MeshRefinement(free, self.solver, None, self.deadline)
-        inner.run(mesh, 1e-3)
+        task, inner = self.task, self._without_times(mesh)
         if inner.best is not None:
             motion = inner.best.motion
             factor = task.times[task.n_segments] / float(motion.times.sum())
@@ -313,7 +315,9 @@ class MeshRefinement:
             start = motion
         found = self.offer(name, motion, solution.status)
         if (free or smooth) and not elastic:
-            self._note(solution, found)
+            self.reason = "" if solution.converged else solution.status
+            if solution.converged and found is not None:
+                self.converged = min(self.converged, found.verdict.seconds)
         if free and found is not None and not elastic:
             self._remember(program, solution, found.verdict.seconds)
         return motion
@@ -321,11 +325,6 @@ class MeshRefinement:
     def _go_on(self) -> None:
         if self.deadline.over:
             raise SearchEnded
-
-    def _note(self, solution: NLPSolution, found: VerifiedMotion | None) -> None:
-        self.reason = "" if solution.converged else solution.status
-        if solution.converged and found is not None:
-            self.converged = min(self.converged, found.verdict.seconds)
 
     def _remember(self, program: FreeFormNLP, solution: NLPSolution, seconds: float) -> None:
         if self.deadline.over and not solution.converged:

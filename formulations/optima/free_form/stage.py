@@ -1,12 +1,16 @@
-"""One step of the search for the fastest motion, and a motion that has passed the check."""
+"""One step of the search for the fastest motion, and the judgement of what its solver returned."""
 
 from __future__ import annotations
 
 from dataclasses import dataclass
 
 from formulations.motion.trajectory import Trajectory
-from formulations.motion.verdict import Verdict
+from formulations.motion.verdict import Verdict, check
+from formulations.optima.free_form.faults import finite
 from formulations.optima.free_form.nlp.arcs import ArcMotion
+from formulations.optima.free_form.nlp.conditioned import ConditionedProblem
+
+_STRETCHES = 10  # attempts, the last with a margin of 1e-5
 
 
 @dataclass(frozen=True)
@@ -37,3 +41,34 @@ class VerifiedMotion:
     motion: ArcMotion
     trajectory: Trajectory
     verdict: Verdict
+
+
+def judged(task: ConditionedProblem, name: str, motion: ArcMotion) -> tuple[VerifiedMotion | None, str]:
+    """Judge what a solver returned, slowed down by the least factor that keeps its limits.
+
+    Parameters
+    ----------
+    task : ConditionedProblem
+    name : str
+        Of the stage.
+    motion : ArcMotion
+
+    Returns
+    -------
+    found : VerifiedMotion or None
+        None if the check refuses the motion.
+    reason : str
+        Why it does.
+    """
+    for attempt in range(_STRETCHES):
+        whole = finite(task, motion)
+        if whole is None:
+            return None, "the numbers overflow"
+        verdict = check(task.problem, whole, conditions=task.conditions)
+        if verdict.feasible:
+            return VerifiedMotion(name, motion, whole, verdict), ""
+        if not (task.stretchable and verdict.position_kept and 1.0 < verdict.stretch < 2.0):
+            break
+        # assembly rounds the stretched breaks again, so that slightly more may be needed
+        motion = motion.stretched(verdict.stretch * (1.0 + 10.0 ** (attempt - 14)))
+    return None, verdict.faults[0]

@@ -30,22 +30,22 @@ class NewFile:
     unit : {"rad", "deg"}
         Unit of angles; lengths are in m.
     robot : RobotFiles or None
-        The files of the robot; None where limits and joints are written out.
-    waypoints_file : Path or None
-        With a robot: where its waypoints stand.
+        The files of the robot, of its limits and of its waypoints; None where all of it is written out.
     joints : tuple of str
-        Without a robot: names of the joints.
+        Without files: names of the joints.
+    prismatic : tuple of str
+        Those of them whose positions are in m.
     waypoints : sequence of sequences of float
         Without a file of them: a row per waypoint [unit or m].
     limits : mapping of str to mapping of str to float
-        By quantity and joint [unit or m, s]; with a robot, those that its files do not give.
+        By quantity and joint [unit or m, s]; with files, those that these do not give.
     """
 
     name: str
     unit: str = "rad"
     robot: RobotFiles | None = None
-    waypoints_file: Path | None = None
     joints: tuple[str, ...] = ()
+    prismatic: tuple[str, ...] = ()
     waypoints: Sequence[Sequence[float]] = ()
     limits: Mapping[str, Numbers] = field(default_factory=dict)
 
@@ -105,13 +105,14 @@ class NewFile:
         return problem
 
     def _joint_lines(self) -> list[str]:
-        return [f"joints = {_listed(self.joints)}    # names, in the order of the columns below"]
+        lines = [f"joints = {_listed(self.joints)}    # names, in the order of the columns below"]
+        return [*lines, *_prismatic_lines(self.prismatic)]
 
     def _waypoint_lines(self, folder: Path) -> list[str]:
-        if self.waypoints_file is not None:
+        if self.robot is not None and self.robot.waypoints is not None:
             return [
                 "# a column per joint, or poses; or waypoints = [[...], ...] here",
-                f"waypoints_file = {_path(self.waypoints_file, folder)}",
+                f"waypoints_file = {_path(self.robot.waypoints, folder)}",
             ]
         rows = ",\n".join(f"  [{', '.join(_number(x) for x in row)}]" for row in self.waypoints)
         return [f"waypoints = [    # a row per waypoint, in {self.unit}", f"{rows},", "]"]
@@ -122,7 +123,7 @@ class NewFile:
                 "# [limits]    # lays other limits over those of the files, by joint:",
                 f"# velocity = {{NAME = 1.0}}    # in {self.unit}/s",
             ]
-        why = "by joint" if self.robot is None else "by joint; what the files of the robot do not give"
+        why = "by joint" if self.robot is None else "by joint; what the files do not give"
         lines = [f"[limits]    # {why}"]
         for quantity in LIMITED[:3]:
             values = self.limits.get(quantity, {})
@@ -137,7 +138,7 @@ class NewFile:
 
 
 def _robot_lines(files: RobotFiles, folder: Path) -> list[str]:
-    lines = [f"robot = {_path(files.robot, folder)}"]
+    lines = [] if files.robot is None else [f"robot = {_path(files.robot, folder)}"]
     if files.srdf is not None:
         lines.append(f"srdf = {_path(files.srdf, folder)}")
     if files.group is not None:
@@ -146,7 +147,9 @@ def _robot_lines(files: RobotFiles, folder: Path) -> list[str]:
         lines.append(f"joints = {_listed(files.joints)}    # the joints that move, in this order")
     if files.limits:
         paths = ", ".join(_path(path, folder) for path in files.limits)
-        lines.append(f"limits_file = [{paths}]    # laid over the limits of the URDF")
+        over = "laid over the limits of the URDF" if files.robot is not None else "each over the last"
+        lines.append(f"limits_file = [{paths}]    # {over}")
+    lines += _prismatic_lines(files.prismatic)
     if files.unlimited:
         lines.append(
             f"unlimited = {_listed(files.unlimited)}    # joints without such a limit may go without"
@@ -154,6 +157,10 @@ def _robot_lines(files: RobotFiles, folder: Path) -> list[str]:
     if files.tip is not None:
         lines.append(f"tip = {_quoted(files.tip)}    # the link that poses are given for")
     return lines
+
+
+def _prismatic_lines(names: Sequence[str]) -> list[str]:
+    return [f"prismatic = {_listed(names)}    # joints whose positions are in m"] if names else []
 
 
 def _number(value: float) -> str:

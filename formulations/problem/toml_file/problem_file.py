@@ -7,6 +7,7 @@ from importlib.resources import files
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
+from formulations.arms import Arm, load_arm
 from formulations.arms.arm import METRES
 from formulations.families import FAMILIES
 from formulations.problem.arrays import Array
@@ -14,9 +15,14 @@ from formulations.problem.errors import InputError
 from formulations.problem.joint_words import UNITS
 from formulations.problem.problem import Problem
 from formulations.problem.toml_file.limit_table import limits_of_robot, limits_of_table
-from formulations.problem.toml_file.poses import POSED, waypoints_of_poses
+from formulations.problem.toml_file.poses import (
+    POSED,
+    robot_waypoints_of_poses,
+    waypoints_of_poses,
+)
 from formulations.problem.toml_file.robot_files import (
     ROBOT_KEYS,
+    URDF_KEYS,
     read_texts,
     require_few,
     robot_of_keys,
@@ -75,14 +81,42 @@ def load(file_or_case: str | Path) -> Problem:
     >>> problem.waypoints.shape, problem.family
     ((4, 6), '3-5-3')
     """
+    return parse(_text_of(file_or_case), where=str(file_or_case), folder=Path(file_or_case).parent)
+
+
+def arm_in(file: str | Path) -> Arm | Robot | None:
+    """Load the arm whose motion a problem file is about, to draw it.
+
+    Parameters
+    ----------
+    file : str or Path
+        A problem file that ``load`` accepts.
+
+    Returns
+    -------
+    Arm or Robot or None
+        That of the key ``arm`` or ``robot``; None where there is neither.
+
+    Raises
+    ------
+    InputError
+        In one line.
+    """
+    data = tomllib.loads(_text_of(file).removeprefix(_BOM))
+    if "arm" in data:
+        return load_arm(data["arm"])
+    return robot_of_keys(data, Path(file).parent) if "robot" in data else None
+
+
+def _text_of(file_or_case: str | Path) -> str:
+    """The text of a shipped case or of a file."""
     if str(file_or_case) in CASES:
-        text = (files("formulations.problem.cases") / f"{file_or_case}.toml").read_text("utf-8")
-        return parse(text, where=str(file_or_case))
+        return (files("formulations.problem.cases") / f"{file_or_case}.toml").read_text("utf-8")
     path = Path(file_or_case)
     try:
         if path.stat().st_size > _LARGEST_FILE:
             raise InputError(f"{path}: larger than {_LARGEST_FILE} bytes, not a problem file")
-        text = path.read_text("utf-8-sig")
+        return path.read_text("utf-8-sig")
     except FileNotFoundError:
         raise InputError(
             f"{path}: no such file, and no case of that name (cases: {', '.join(CASES)})"
@@ -91,7 +125,6 @@ def load(file_or_case: str | Path) -> Problem:
         raise InputError(f"{path}: not a UTF-8 text file") from None
     except (OSError, ValueError) as error:
         raise InputError(f"{path}: cannot be read: {error}") from None
-    return parse(text, where=str(path), folder=path.parent)
 
 
 def parse(text: str, *, where: str = "problem", folder: str | Path = ".") -> Problem:
@@ -100,7 +133,7 @@ def parse(text: str, *, where: str = "problem", folder: str | Path = ".") -> Pro
     Parameters
     ----------
     text : str
-        The keys are in the README: ``waypoints``, ``waypoints_file``, or ``arm`` and ``[[pose]]``;
+        The keys are in the README: ``waypoints``, ``waypoints_file``, or ``robot`` or ``arm`` and ``[[pose]]``;
         ``[limits]``, or ``robot`` and ``limits_file``; and ``name``, ``joints``, ``unit``, ``family``, ....
     where : str
         Start of every error line.
@@ -176,15 +209,17 @@ def _problem(data: dict[str, Any], folder: Path) -> Problem:
 
 
 def _robot(data: dict[str, Any], folder: Path) -> Robot | None:
-    """The robot whose files are named; None without."""
-    if "robot" in data:
-        for key in ("arm", "prismatic"):
+    """The robot, or the joints, whose files are named; None without."""
+    named = next((key for key in ("robot", "limits_file", "waypoints_file") if key in data), None)
+    if named is not None:
+        for key in ("arm", "prismatic") if named == "robot" else ("arm",):
             if key in data:
-                raise InputError(f"{key}: given beside robot; leave one of them out")
+                raise InputError(f"{key}: given beside {named}; leave one of them out")
         return robot_of_keys(data, folder)
-    for key in (*ROBOT_KEYS, "waypoints_file"):
+    for key in ROBOT_KEYS:
         if key in data:
-            raise InputError(f'{key}: needs a robot (key robot = "FILE.urdf")')
+            beside = "" if key in URDF_KEYS else ', or a limits_file = "FILE.yaml"'
+            raise InputError(f'{key}: needs a robot (key robot = "FILE.urdf"){beside}')
     return None
 
 
@@ -192,20 +227,25 @@ def _waypoints(
     data: dict[str, Any], folder: Path, unit: str, robot: Robot | None
 ) -> tuple[Array, str, Array | None]:
     """Waypoints, the unit of their angles, and position limits (dof, 2) of an arm whose poses they are."""
-    given = [key for key in ("waypoints", "waypoints_file", "arm") if key in data]
+    posed = (
+        "pose" if robot is not None else "arm"
+    )  # a robot's own kinematics, or those of a shipped arm
+    given = [key for key in ("waypoints", "waypoints_file", posed) if key in data]
     if not given:
         raise InputError("waypoints: missing")
     if len(given) > 1:
         beside = " and ".join(given[1:])
         raise InputError(f"{given[0]}: given beside {beside}; leave all but one out")
-    if "arm" in data:
+    if given[0] == posed:
+        if robot is not None:
+            return robot_waypoints_of_poses(data, robot, unit), "rad", None
         if "pose" not in data:
             raise InputError("pose: missing")
         solved, reach = waypoints_of_poses(data, UNITS[unit])
         return solved, "rad", reach
     for key in POSED[1:]:
         if key in data and not (key == "length" and "waypoints_file" in data):
-            raise InputError(f"{key}: needs an arm to be solved for (key arm)")
+            raise InputError(f"{key}: needs an arm to be solved for (key robot or arm)")
     if robot is not None and "waypoints_file" in data:
         path = folder / read_text("waypoints_file", data["waypoints_file"])
         length = read_choice("length", data.get("length", "m"), METRES)

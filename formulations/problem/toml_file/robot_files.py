@@ -1,4 +1,4 @@
-"""A problem from the files of a robot: URDF, SRDF, limit files and a file of waypoints.
+"""A problem from files: limit files and a file of waypoints, with the URDF and SRDF of a robot or without.
 
 Problem files name them under the keys of ``ROBOT_KEYS``; the commands have options for them. The package
 ``formulations.robot`` is loaded when a robot is asked for, not before.
@@ -21,7 +21,9 @@ if TYPE_CHECKING:
     from formulations.robot import Robot
 
 SCALINGS = ("velocity_scaling", "acceleration_scaling", "jerk_scaling")
-ROBOT_KEYS = ("robot", "srdf", "group", "limits_file", "unlimited", "base", "tip", *SCALINGS)
+URDF_KEYS = ("srdf", "group", "base", "tip")  # what only a URDF gives a meaning
+ROBOT_KEYS = ("robot", "limits_file", "unlimited", *URDF_KEYS, *SCALINGS)
+FREE = ("acceleration", "jerk", "position")  # limits that a joint may go without
 
 
 @dataclass(frozen=True)
@@ -30,10 +32,11 @@ class RobotFiles:
 
     Attributes
     ----------
-    robot : Path
-        The URDF.
+    robot : Path or None
+        The URDF; None where joints have names and limits alone.
     joints : tuple of str or None
-        The joints to move, in order; None for all, or for those of the group.
+        The joints to move, in order; None for all, or for those of the group. Without a URDF, for those
+        that the waypoints name, or else the limits files.
     group : str or None
         A group of the SRDF.
     srdf : Path or None
@@ -46,9 +49,13 @@ class RobotFiles:
         Links that Cartesian poses are measured from and given for.
     scaling : mapping of str to float
         Factors on the limits, by the names of ``SCALINGS``.
+    prismatic : tuple of str
+        Without a URDF: the joints whose positions are lengths.
+    waypoints : Path or None
+        Their file.
     """
 
-    robot: Path
+    robot: Path | None = None
     joints: tuple[str, ...] | None = None
     group: str | None = None
     srdf: Path | None = None
@@ -57,11 +64,27 @@ class RobotFiles:
     base: str | None = None
     tip: str | None = None
     scaling: Mapping[str, float] | None = None
+    prismatic: tuple[str, ...] = ()
+    waypoints: Path | None = None
 
     def read(self) -> Robot:
         """Read the robot; raises InputError in one line, also where the extra ``robot`` is missing."""
-        from formulations.robot import robot_of
+        from formulations.robot import joint_names_in, robot_of, robot_of_joints
 
+        if self.robot is None:
+            for key in URDF_KEYS:
+                if getattr(self, key) is not None:
+                    raise InputError(f'{key}: needs a robot (key robot = "FILE.urdf")')
+            names = self.joints
+            if names is None and self.waypoints is not None:
+                names = joint_names_in(self.waypoints)
+            return robot_of_joints(
+                names,
+                prismatic=self.prismatic,
+                limits=self.limits,
+                unlimited=self.unlimited,
+                **(self.scaling or {}),
+            )
         return robot_of(
             self.robot,
             joints=self.joints,
@@ -81,7 +104,7 @@ def robot_of_keys(data: Mapping[str, Any], folder: Path) -> Robot:
     Parameters
     ----------
     data : mapping
-        The file, as ``tomllib`` reads it, with the key ``robot``.
+        The file, as ``tomllib`` reads it, with the key ``robot``, ``limits_file`` or ``waypoints_file``.
     folder : Path
         Folder of the file; paths are relative to it.
 
@@ -95,34 +118,35 @@ def robot_of_keys(data: Mapping[str, Any], folder: Path) -> Robot:
     InputError
         In one line that names the key or the file.
     """
-    for key in ("robot", "srdf", "group", "base", "tip"):
+    paths = {}
+    for key in ("robot", "waypoints_file", *URDF_KEYS):
         if key in data:
-            read_text(key, data[key])
-    srdf = folder / data["srdf"] if "srdf" in data else None
+            paths[key] = folder / read_text(key, data[key])
+    free = read_texts("unlimited", data.get("unlimited", []))
+    if not {"robot", "limits_file"} & set(data):
+        free = FREE  # as in a file that has only the table [limits]
     return RobotFiles(
-        robot=folder / data["robot"],
+        robot=paths.get("robot"),
         joints=read_texts("joints", data["joints"]) if "joints" in data else None,
         group=data.get("group"),
-        srdf=srdf,
+        srdf=paths.get("srdf"),
         limits=tuple(folder / name for name in read_texts("limits_file", data.get("limits_file", []))),
-        unlimited=read_texts("unlimited", data.get("unlimited", [])),
+        unlimited=free,
         base=data.get("base"),
         tip=data.get("tip"),
         scaling={key: read_number(key, data[key]) for key in SCALINGS if key in data},
+        prismatic=read_texts("prismatic", data.get("prismatic", [])),
+        waypoints=paths.get("waypoints_file"),
     ).read()
 
 
-def problem_from(
-    files: RobotFiles, waypoints: Path, *, unit: str = "rad", length: str = "m"
-) -> Problem:
+def problem_from(files: RobotFiles, *, unit: str = "rad", length: str = "m") -> Problem:
     """Read a problem from files alone.
 
     Parameters
     ----------
     files : RobotFiles
-        The robot.
-    waypoints : Path
-        A table, a JointTrajectory or poses.
+        The robot, and the file of its waypoints.
     unit : {"rad", "deg"}
         Unit of angles in the waypoints, in messages and in reports.
     length : {"m", "mm"}
@@ -138,12 +162,14 @@ def problem_from(
     InputError
         In one line that names the file, the joint and the value.
     """
+    if files.waypoints is None:
+        raise InputError("waypoints: missing")
     robot = files.read()
     limits = robot.limits  # what is missing is asked for first
     return Problem(
-        waypoints_from(waypoints, robot, unit, length),
+        waypoints_from(files.waypoints, robot, unit, length),
         limits,
-        name=waypoints.stem,
+        name=files.waypoints.stem,
         names=robot.names,
         display_unit=unit,
     )

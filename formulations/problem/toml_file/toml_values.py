@@ -53,9 +53,26 @@ def nearest(name: str, known: Sequence[str]) -> str:
     str
         ``; did you mean a? (known: a, b)``, without the question where none is near.
     """
+    return f"{near_name(name, known)} (known: {', '.join(known)})"
+
+
+def near_name(name: str, known: Sequence[str]) -> str:
+    """Ask whether the nearest name is meant.
+
+    Parameters
+    ----------
+    name : str
+        The unknown name.
+    known : sequence of str
+        All known ones.
+
+    Returns
+    -------
+    str
+        ``; did you mean a?``; empty where none is near.
+    """
     near = difflib.get_close_matches(name[:100], known, n=1, cutoff=0.5)
-    hint = f"; did you mean {near[0]}?" if near else ""
-    return f"{hint} (known: {', '.join(known)})"
+    return f"; did you mean {near[0]}?" if near else ""
 
 
 def shown(value: Any) -> str:
@@ -122,7 +139,8 @@ def read_choice(key: str, value: Any, choices: Any) -> str:
         If the value is none of them.
     """
     if not isinstance(value, str) or value not in choices:
-        raise InputError(f"{key}: {shown(value)} is not one of {', '.join(choices)}")
+        near = near_name(str(value), tuple(choices)) if isinstance(value, str) else ""
+        raise InputError(f"{key}: {shown(value)} is not one of {', '.join(choices)}{near}")
     return value
 
 

@@ -2,6 +2,6 @@
 
 from __future__ import annotations
 
-from formulations.robot.waypoints.reader import waypoints_of
+from formulations.robot.waypoints.reader import joint_names_in, waypoints_of
 
-__all__ = ["waypoints_of"]
+__all__ = ["joint_names_in", "waypoints_of"]

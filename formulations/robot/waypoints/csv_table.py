@@ -21,7 +21,7 @@ from formulations.robot.text.files import known_names, number_of, shown
 MOST_WAYPOINTS = 100_000
 MOST_COLUMNS = 1000
 
-_PREFIX = "position_"
+PREFIX = "position_"
 _DECIMAL_COMMA = re.compile(r"\s*[-+]?\d+,\d+\s*", re.ASCII)
 
 
@@ -220,6 +220,6 @@ def check_complete(file: str, what: str, given: Sequence[str], names: Sequence[s
 
 
 def _joint_of(column: str, names: Sequence[str]) -> str:
-    if column not in names and column.startswith(_PREFIX):
-        return column.removeprefix(_PREFIX)
+    if column not in names and column.startswith(PREFIX):
+        return column.removeprefix(PREFIX)
     return column

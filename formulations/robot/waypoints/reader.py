@@ -15,7 +15,7 @@ from formulations.robot.robot import Robot
 from formulations.robot.text.entry import TextEntry
 from formulations.robot.text.files import decode, known_names, read_bytes, shown
 from formulations.robot.text.trees import parse_json, parse_yaml
-from formulations.robot.waypoints.csv_table import joint_columns, parse_table
+from formulations.robot.waypoints.csv_table import PREFIX, joint_columns, parse_table
 from formulations.robot.waypoints.poses import (
     METRES,
     RADIANS,
@@ -24,7 +24,12 @@ from formulations.robot.waypoints.poses import (
     poses_of_entry,
     poses_of_table,
 )
-from formulations.robot.waypoints.trajectory import MESSAGE, WRAPPERS, trajectory_positions
+from formulations.robot.waypoints.trajectory import (
+    MESSAGE,
+    WRAPPERS,
+    trajectory_joints,
+    trajectory_positions,
+)
 
 LARGEST_WAYPOINTS = 20_000_000  # bytes
 SUFFIXES = (".csv", ".txt", ".json", ".yaml", ".yml")
@@ -58,14 +63,47 @@ def waypoints_of(path: str | Path, robot: Robot, *, unit: str = "rad", length: s
     for key, value, known in (("unit", unit, RADIANS), ("length", length, METRES)):
         if value not in known:
             raise InputError(f"{key}: {shown(value)} is not one of {', '.join(known)}")
+    _suffix(path)
+    return parse_waypoints(
+        read_bytes(path, largest=LARGEST_WAYPOINTS), str(path), robot, unit=unit, length=length
+    )
+
+
+def joint_names_in(path: str | Path) -> tuple[str, ...] | None:
+    """Read which joints a file of waypoints names.
+
+    Parameters
+    ----------
+    path : str or Path
+        As for ``waypoints_of``.
+
+    Returns
+    -------
+    tuple of str, or None
+        In the order of the file; None where it names none: a table without a header, or poses.
+
+    Raises
+    ------
+    InputError
+        One line that names the file.
+    """
+    file = str(path)
+    text = decode(read_bytes(path, largest=LARGEST_WAYPOINTS), file)
+    if _suffix(path) in (".csv", ".txt"):
+        header = parse_table(text, file).header
+        return None if header is None else tuple(column.removeprefix(PREFIX) for column in header)
+    top: TextEntry = (parse_json if file.lower().endswith(".json") else parse_yaml)(text, file)
+    return None if top.has("poses") else trajectory_joints(top)
+
+
+def _suffix(path: str | Path) -> str:
+    """The ending of a file that can be read."""
     suffix = Path(path).suffix.lower()
     if suffix not in SUFFIXES:
         raise InputError(
             f"{path}: waypoints are read from {', '.join(SUFFIXES)}, not from {shown(suffix)}"
         )
-    return parse_waypoints(
-        read_bytes(path, largest=LARGEST_WAYPOINTS), str(path), robot, unit=unit, length=length
-    )
+    return suffix
 
 
 def parse_waypoints(

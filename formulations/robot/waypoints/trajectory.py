@@ -83,6 +83,31 @@ def trajectory_positions(top: TextEntry, names: Sequence[str]) -> Array:
     return np.array(rows, dtype=np.float64).reshape(-1, len(given))[:, order]
 
 
+def trajectory_joints(top: TextEntry) -> tuple[str, ...]:
+    """The joints that a JointTrajectory names.
+
+    Parameters
+    ----------
+    top : TextEntry
+        A JointTrajectory, or a message that holds one.
+
+    Returns
+    -------
+    tuple of str
+        In its order.
+
+    Raises
+    ------
+    InputError
+        It names none.
+    """
+    message = message_of(top)
+    entries = message.entries(MESSAGE)
+    if "joint_names" not in entries:
+        raise message.error("joint_names is missing")
+    return tuple(entry.text() for entry in entries["joint_names"].elements())
+
+
 def _number(entry: TextEntry, joint: str) -> float:
     try:
         return entry.number()

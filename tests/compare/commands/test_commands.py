@@ -89,13 +89,13 @@ def test_an_unknown_option_is_one_line(name: str, capsys: pytest.CaptureFixture[
 NEED_A_FILE = ("solve", "plan", "check", "split", "motion_picture", "check_certificate", "report")
 
 BAD = {
-    "new": (["--limits", "joint_limits.yaml"], "--limits: needs a robot (--from-urdf URDF)"),
+    "new": (["--limits", "joint_limits.yaml"], "joint_limits.yaml: no such file"),
     "solve": (["nowhere.toml"], "nowhere.toml: no such file"),
     "plan": (["sr4c", "--stop", "soon"], '--stop: unable to convert "soon" into int'),
     "check": (["sr4c", "nowhere.csv"], "nowhere.csv: no such file"),
     "retime": (["nowhere.csv", "--limits", "sr4c"], "nowhere.csv: no such file"),
     "split": (["sr4c", "--swarm", "psoo"], "--swarm: 'psoo' is not known; did you mean 'pso'?"),
-    "motion_picture": (["sr4d"], "CASE: no arm is known for 'sr4d'"),
+    "motion_picture": (["sr4d"], "sr4d: no such file, and no case of that name"),
     "check_certificate": (["nowhere.json"], "nowhere.json: cannot be read"),
     "all": (["--cases", "sr4d"], "--cases: 'sr4d' is not known; did you mean 'sr4c'?"),
     "report": (["/nowhere"], "/nowhere: holds no comparison"),

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import json
+import re
 from pathlib import Path
 
 import pytest
@@ -61,3 +62,39 @@ def test_a_diagnosis_names_joints() -> None:
     rows = found.to_json()["holds"]
     assert isinstance(rows, list)
     assert (rows[0]["joint"], rows[0]["name"], rows[0]["segment"]) == (1, "a", 1)
+
+
+def test_a_proof_in_words_names_the_joints(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
+    pytest.importorskip("flint")
+    file, bare, proof = (tmp_path / name for name in ("mine.toml", "bare.toml", "cert.json"))
+    file.write_text(TEXT)
+    bare.write_text(TEXT.replace('joints = ["shoulder", "elbow"]\n', ""))
+    for problem, names in ((file, ("shoulder", "elbow")), (bare, ("1", "2"))):
+        made = ("--rungs", "free_form_lower", "--motion-certificate", str(proof))
+        assert main(["solve", str(problem), *made]) == 0
+        capsys.readouterr()
+        assert main(["check_certificate", str(proof), "--show", "--problem", str(file)]) == 0
+        said = capsys.readouterr().out
+        found = set(re.findall(r", joint (\w+)\]", said))
+        assert found
+        assert found <= set(names)
+        assert ("v[" in said) == (problem is file)
+    data = json.loads(proof.read_text())
+    for wrong in (["one"], ["a", "b\n"], ["a", "b" * 101], "ab"):
+        proof.write_text(json.dumps({**data, "names": wrong}))
+        assert main(["check_certificate", str(proof)]) == 2
+        assert "error: " in capsys.readouterr().err
+
+
+def test_a_velocity_of_almost_nothing_is_no_solver_error_in_a_line_of_success(
+    tmp_path: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
+    file = tmp_path / "slow.toml"
+    file.write_text(
+        "waypoints = [[0, 0], [1, 0.5], [0, 1]]\n[limits]\nvelocity = 1e-12\nacceleration = 1\njerk = 10\n"
+    )
+    assert main(["plan", str(file), "--no-bound"]) == 0
+    said = capsys.readouterr().out
+    assert "Model error" not in said
+    # 1 rad there and 1 rad back at 1e-12 rad/s
+    assert 2e12 <= float(said.split(": ")[1].split(" s")[0]) < 2.1e12

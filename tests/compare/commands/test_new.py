@@ -158,3 +158,43 @@ def test_answers_that_end_early_are_one_line(
 def test_any_name_is_written_so_that_it_is_read_back(name: str, folder: Path) -> None:
     assert main(["new", *OWN, "--name", name, "--force"]) == 0
     assert load(folder / "problem.toml").name == name
+
+
+def test_waypoints_of_a_robot_are_typed_row_by_row(
+    folder: Path, monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
+) -> None:
+    own = (*URDF, "--limits", "robots/joint_limits.yaml")
+    # nothing in place of a file; a row too short is asked for again; nothing ends the list
+    answers(monkeypatch, "deg", "", "0,10,0", "1,2", "45 -20 0.1", "90 30 0.2", "")
+    assert main(["new", *own]) == 0
+    said = capsys.readouterr().err
+    assert "waypoint 1: turn [deg], bend [deg], slide [m]: " in said
+    assert "2 numbers for 3 joints" in said
+    typed = load(folder / "problem.toml")
+    assert main(["new", *own, "--unit", "deg", "--waypoints", "path.csv", "-o", "read.toml"]) == 0
+    read = load(folder / "read.toml")
+    np.testing.assert_allclose(typed.waypoints, read.waypoints, atol=1e-15)
+    assert typed.limits == read.limits
+    rows = ("--waypoint", "0,10,0", "--waypoint", "45,-20,0.1", "--waypoint", "90,30,0.2")
+    assert main(["new", *own, "--unit", "deg", *rows, "-o", "given.toml"]) == 0
+    np.testing.assert_array_equal(load(folder / "given.toml").waypoints, typed.waypoints)
+
+
+def test_a_file_from_limits_and_waypoints_without_a_urdf(
+    folder: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
+    files = ("--limits", "robots/joint_limits.yaml", "--waypoints", "path.csv", "--unit", "deg")
+    more = ("--prismatic", "slide", "--unlimited", "position")
+    assert main(["new", *files, *more]) == 2
+    assert "limits are missing: velocity of bend, turn, slide" in capsys.readouterr().err
+    assert main(["new", *files, *more, "--velocity", "90,45,0.5"]) == 0
+    text = (folder / "problem.toml").read_text()
+    assert "robot =" not in text
+    assert 'limits_file = ["robots/joint_limits.yaml"]' in text
+    problem = load(folder / "problem.toml")
+    assert problem.names == ("bend", "turn", "slide")
+    assert problem.units == ("rad", "rad", "m")
+    np.testing.assert_allclose(problem.limits.velocity, [math.pi / 2, math.pi / 4, 0.5])
+    np.testing.assert_allclose(problem.waypoints[1], [-math.pi / 9, math.pi / 4, 0.1])
+    assert main(["new", *URDF, *files, "--prismatic", "slide", "--force"]) == 2
+    assert "--prismatic: given beside --from-urdf" in capsys.readouterr().err

@@ -73,7 +73,7 @@ def test_the_file_is_judged_and_a_bad_rate_is_told_before_solving(
     def solve(*arguments: object, **more: object) -> None:
         raise AssertionError("solved before the rate was looked at")
 
-    monkeypatch.setattr("compare.commands.motions.plan.free_form", solve)
+    monkeypatch.setattr("compare.commands.motions.plan.find_motion", solve)
     assert main(["plan", "sr4c", "--export", str(tmp_path / "n.csv"), "--rate", "1e9"]) == 2
     assert not (tmp_path / "n.csv").exists()
 

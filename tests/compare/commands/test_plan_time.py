@@ -43,7 +43,7 @@ signal.signal(signal.SIGINT, signal.default_int_handler)
 from compare.__main__ import main
 sys.exit(main(sys.argv[4:]))
 """
-_SEARCH = {"plan": "free_form", "solve": "ladder"}
+_SEARCH = {"plan": "find_motion", "solve": "ladder"}
 
 
 def interrupted(after: float, command: str, *arguments: str) -> subprocess.CompletedProcess[str]:

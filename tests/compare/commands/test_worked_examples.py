@@ -6,6 +6,7 @@ import re
 import shutil
 import subprocess
 import sys
+import time
 from pathlib import Path
 
 import matplotlib as mpl
@@ -77,9 +78,18 @@ def test_the_four_commands_of_the_readme(folder: Path) -> None:
     install, *commands = blocks(README, "sh")[0].splitlines()
     assert install.endswith("'.[robot]'")
     assert len(commands) == 3
+    started = time.perf_counter()
     said = run("\n".join(commands), folder)
+    assert (
+        time.perf_counter() - started < 180.0
+    )  # the user's time, which is mostly the three starts of Python
+    assert "motion.csv: keeps what mine asks for" in said
+    assert "quintics between" in said
+    assert "5 of 5 waypoints passed" in said
+    assert "no motion that keeps the limits takes less than" in said
     assert "mine.toml: written, 5 waypoints of 7 joints" in said
-    assert "joint panda_joint" in said
+    assert [command.split()[1] for command in commands] == ["new", "plan", "check"]
+    assert "panda_joint" in said
     assert "motion.csv: written" in said
     keeps_limits(f.load(folder / "mine.toml"), folder / "motion.csv", "panda")
 

@@ -77,4 +77,4 @@ def test_what_has_no_arm_is_refused(tmp_path: Path) -> None:
     call = [sys.executable, "-m", "compare", "motion_picture", "mine"]
     done = subprocess.run(call, capture_output=True, text=True, check=False)
     assert (done.returncode, done.stderr.count("\n")) == (2, 1)
-    assert "no arm is known for 'mine'" in done.stderr
+    assert "mine: no such file, and no case of that name" in done.stderr

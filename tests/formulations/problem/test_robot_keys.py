@@ -93,10 +93,6 @@ MISTAKES = {
     "an unknown joint": (FILE + 'joints = ["trun"]\n', ["'trun'", "nearest known one is 'turn'"]),
     "both waypoints": ("waypoints = [[0, 0, 0]]\n" + FILE, ["waypoints: given beside waypoints_file"]),
     "no waypoints": (FILE.replace('waypoints_file = "path.csv"', ""), ["waypoints: missing"]),
-    "files without a robot": (
-        'waypoints_file = "path.csv"\n[limits]\nvelocity = 1\n',
-        ["waypoints_file: needs a robot"],
-    ),
     "an arm beside": ('arm = "ur5"\n' + FILE, ["arm: given beside robot"]),
     "columns": (
         FILE.replace('waypoints_file = "path.csv"', "waypoints = [[0, 1], [1, 1]]"),
@@ -121,6 +117,139 @@ MISTAKES = {
     ),
     "prismatic": ('prismatic = ["slide"]\n' + FILE, ["prismatic: given beside robot"]),
 }  # fmt: skip
+
+
+ALONE = """unit = "deg"
+limits_file = "robots/joint_limits.yaml"
+waypoints_file = "path.csv"
+prismatic = "slide"
+unlimited = "position"
+[limits]
+velocity = {turn = 90, bend = 45, slide = 0.5}
+"""
+
+
+def test_limits_and_waypoints_need_no_robot_where_the_joints_are_named(folder: Path) -> None:
+    problem = load(write(folder, ALONE))
+    assert problem.names == ("bend", "turn", "slide")  # the header of the CSV
+    assert problem.units == ("rad", "rad", "m")
+    np.testing.assert_allclose(problem.waypoints[1], [math.radians(-20), math.pi / 4, 0.1])
+    np.testing.assert_allclose(problem.limits.velocity, [math.pi / 4, math.pi / 2, 0.5])
+    np.testing.assert_allclose(problem.limits.acceleration, [3, 4, 2])
+    np.testing.assert_allclose(problem.limits.jerk, [30, 40, 20])
+    assert np.isinf(problem.limits.position).all()
+    ordered = load(write(folder, 'joints = ["slide", "turn", "bend"]\n' + ALONE))
+    assert ordered.names == ("slide", "turn", "bend")
+    np.testing.assert_allclose(ordered.waypoints[:, ::-1][:, [0, 1]], problem.waypoints[:, :2])
+
+
+def test_without_names_in_the_waypoints_the_limits_file_names_the_joints(folder: Path) -> None:
+    here = ALONE.replace('waypoints_file = "path.csv"', "waypoints = [[0, 10, 0], [45, -20, 0.1]]")
+    problem = load(write(folder, here))
+    assert problem.names == ("turn", "bend", "slide")  # the order of the YAML
+    np.testing.assert_allclose(problem.waypoints[1], [math.pi / 4, math.radians(-20), 0.1])
+    (folder / "path.csv").write_text("0,10,0\n45,-20,0.1\n")
+    bare = load(write(folder, ALONE))
+    assert bare.names == problem.names
+    np.testing.assert_array_equal(bare.waypoints, problem.waypoints)
+
+
+def test_waypoints_of_a_file_and_limits_of_the_table_alone(folder: Path) -> None:
+    text = 'unit = "deg"\nwaypoints_file = "path.csv"\nprismatic = "slide"\n[limits]\n'
+    problem = load(write(folder, text + "velocity = {bend = 90, turn = 45, slide = 1}\n"))
+    assert problem.names == ("bend", "turn", "slide")
+    np.testing.assert_allclose(problem.limits.velocity, [math.pi / 2, math.pi / 4, 1])
+    assert not problem.limits.has_acceleration  # left out: unlimited, as in any table
+    message = refused(folder, text + "velocity = {bend = 90}\n")
+    assert "limits are missing: velocity of turn, slide" in message
+    (folder / "path.json").write_text(
+        '{"joint_names": ["turn"], "points": [{"positions": [0]}, {"positions": [1]}]}'
+    )
+    rotary = 'waypoints_file = "path.json"\n[limits]\nvelocity = 2\n'
+    assert load(write(folder, rotary)).names == ("turn",)
+
+
+ALONE_MISTAKES = {
+    "a joint": (
+        'joints = ["turn", "bend", "slied"]\n' + ALONE,
+        ["joints: no limits file has joint 'slied'", "nearest known one is 'slide'"],
+    ),
+    "twice": ('joints = ["turn", "turn"]\n' + ALONE, ["joints: joint 'turn' is given twice"]),
+    "prismatic": (ALONE.replace('"slide"', '"lside"'), ["prismatic: no joint 'lside'", "'slide'"]),
+    "position": (
+        ALONE.replace('unlimited = "position"\n', ""),
+        ["limits are missing: position of bend, turn, slide", "unlimited=['position']"],
+    ),
+    "srdf": ('srdf = "arm.srdf"\n' + ALONE, ["srdf: needs a robot (key robot"]),
+    "scaling": ('velocity_scaling = 2\n' + ALONE, ["velocity_scaling: 2.0 is not a factor"]),
+    "arm": ('arm = "ur5"\n' + ALONE, ["arm: given beside limits_file"]),
+    "no names": (
+        ALONE.replace('limits_file = "robots/joint_limits.yaml"\n', "").replace("path", "bare"),
+        ["joints: missing: neither they nor a file names the joints"],
+    ),
+    "poses": (
+        ALONE.replace('waypoints_file = "path.csv"\n', "")
+        + "[[pose]]\nposition = [1, 0, 0]\nrpy = [0, 0, 0]\n",
+        ["has no URDF, hence no kinematics"],
+    ),
+}  # fmt: skip
+
+
+@pytest.mark.parametrize("mistake", ALONE_MISTAKES)
+def test_a_mistake_without_a_robot_is_one_line(mistake: str, folder: Path) -> None:
+    (folder / "bare.csv").write_text("0,0,0\n1,1,0.1\n")
+    text, words = ALONE_MISTAKES[mistake]
+    line = refused(folder, text)
+    for word in words:
+        assert word in line, line
+
+
+# the hand of the small arm: turn about z, bend about y, slide along the bent z axis
+POSED = """robot = "robots/arm.urdf"
+limits_file = "robots/joint_limits.yaml"
+unit = "deg"
+length = "mm"
+near = {turn = 10, bend = 20, slide = 0.1}
+"""
+
+
+def hand(turn: float, bend: float, slide: float) -> tuple[list[float], list[float]]:
+    """Position [mm] and roll, pitch, yaw [deg] by trigonometry."""
+    a, b = math.radians(turn), math.radians(bend)
+    along = [math.cos(a) * math.sin(b), math.sin(a) * math.sin(b), math.cos(b)]
+    return [1000.0 * slide * x for x in along], [0.0, bend, turn]
+
+
+def test_poses_in_the_file_are_solved_by_the_kinematics_of_the_urdf(folder: Path) -> None:
+    wanted = [(10.0, 20.0, 0.1), (40.0, 60.0, 0.15), (-30.0, -50.0, 0.05)]
+    tables = ""
+    for joints in wanted:
+        position, rpy = hand(*joints)
+        tables += f"[[pose]]\nposition = {position}\nrpy = {rpy}\n"
+    problem = load(write(folder, POSED + tables))
+    truth = [[math.radians(a), math.radians(b), slide] for a, b, slide in wanted]
+    np.testing.assert_allclose(problem.waypoints, truth, atol=1e-6)
+    # the same poses in a file beside it, by the same solver
+    rows = [",".join(map(str, (*p, *r))) for p, r in (hand(*joints) for joints in wanted)]
+    (folder / "poses.csv").write_text("\n".join(["x,y,z,roll,pitch,yaw", *rows]))
+    text = POSED.replace("near = {turn = 10, bend = 20, slide = 0.1}\n", "")
+    beside = load(write(folder, text + 'waypoints_file = "poses.csv"\n'))
+    np.testing.assert_allclose(beside.waypoints, problem.waypoints, atol=1e-6)
+
+
+@pytest.mark.parametrize(
+    ("text", "words"),
+    [
+        ("[[pose]]\npositoin = [0, 0, 100]\nrpy = [0, 0, 0]", "unknown key 'positoin'; did you mean pos"),
+        ("[[pose]]\nposition = [0, 0, 900]\nrpy = [0, 0, 0]", "the best leaves that of joint 'slide' by 0.7 m"),
+        ("waypoints = [[0, 0, 0]]\n[[pose]]\nposition = [0, 0, 1]", "waypoints: given beside pose"),
+        ("pose = 3", "pose: expected tables"),
+    ],
+)  # fmt: skip
+def test_a_mistake_in_a_pose_is_one_line(text: str, words: str, folder: Path) -> None:
+    assert words in refused(folder, POSED + text)
+    wrong = POSED.replace("bend = 20", "bnd = 20") + "[[pose]]\nposition = [0, 0, 100]\nrpy = [0, 0, 0]"
+    assert "near: no joint 'bnd'; the nearest known one is 'bend'" in refused(folder, wrong)
 
 
 @pytest.mark.parametrize("mistake", MISTAKES)

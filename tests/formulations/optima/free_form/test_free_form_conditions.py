@@ -151,6 +151,16 @@ def test_a_passage_may_be_earlier_than_that_of_the_fastest_motion(seed: int, sha
     assert fastest.seconds * (1.0 - 1e-6) <= found.seconds < 1.05 * fastest.seconds
 
 
+def test_a_passage_a_little_later_than_that_of_the_fastest_motion_is_met() -> None:
+    fastest = motion(free_form(UR5, tolerance=1e-6))
+    # slowed down as a whole, the fastest motion meets the time: this is possible, and no worse is accepted
+    late = 1.0 + 1e-5
+    asked = Conditions(passage={2: late * fastest.passage_times[2]})
+    found = free_form(UR5, conditions=asked)
+    assert check(UR5, motion(found), conditions=asked).feasible
+    assert found.seconds <= late * fastest.seconds * (1.0 + 1e-6)
+
+
 def test_a_refusal_names_a_time_that_is_then_possible() -> None:
     problem = ten(1)
     with pytest.raises(NoFeasibleMotion, match="the nearest one found passes waypoint 5 at") as refusal:
