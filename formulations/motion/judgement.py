@@ -173,7 +173,7 @@ def judge(
     wanted = problem.names
     names, method = wanted, "pieces"
     if isinstance(motion, MotionPoints):
-        points = _in_order_of(wanted, motion)
+        points = in_order_of(wanted, motion)
         names = names or points.names
         trajectory = points.motion(interpolation)
         method = _DEGREES[trajectory.coefficients.shape[2]]
@@ -213,8 +213,24 @@ def judge(
     )
 
 
-def _in_order_of(names: tuple[str, ...], points: MotionPoints) -> MotionPoints:
-    """Points with their joints in the order of the problem, where both have names."""
+def in_order_of(names: tuple[str, ...], points: MotionPoints) -> MotionPoints:
+    """Put the joints of points in the order of a problem, where both have names.
+
+    Parameters
+    ----------
+    names : tuple of str
+        Names of the problem's joints; empty where it has none.
+    points : MotionPoints
+
+    Returns
+    -------
+    MotionPoints
+
+    Raises
+    ------
+    InputError
+        The names are not the same ones.
+    """
     if not names or not points.names or points.names == names:
         return points
     if set(points.names) != set(names):

@@ -140,7 +140,5 @@ def _found(
                 mine = sizes[order][:, joint]
                 at = int(mine.argmax())
                 count = int((mine > allowed[joint]).sum())
-                found.append(
-                    Jump(QUANTITIES[order], joint, float(times[at]), float(mine[at]), count)
-                )
+                found.append(Jump(QUANTITIES[order], joint, float(times[at]), float(mine[at]), count))
     return found
