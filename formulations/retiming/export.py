@@ -131,6 +131,8 @@ def _finer(problem: Problem, motion: Trajectory, rate: float) -> str:
         points = _points(problem, motion, rate * times)
         verdict = check(problem, points.motion(passages=points.times[[0, -1]]))
         if verdict.stretch <= _ENOUGH and verdict.position_kept:
-            stretch = max(verdict.stretch, 1.0)
-            return f"; at {rate * times:g} points per second one of {stretch:.6g} is enough"
+            needed = (
+                f"one of {verdict.stretch:.6g} is enough" if verdict.stretch > 1.0 else "none is needed"
+            )
+            return f"; at {rate * times:g} points per second {needed}"
     return ""

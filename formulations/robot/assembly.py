@@ -10,8 +10,23 @@ from typing import Any
 import numpy as np
 
 from formulations.problem.errors import InputError
-from formulations.robot.joint_limits import LARGEST_LIMITS, check_names, laid_over, parse_limits
-from formulations.robot.joints import QUANTITIES, UNLIMITED, Joint, Mimic, limited_by
+from formulations.problem.problem import Limits
+from formulations.robot.joint_limits import (
+    LARGEST_LIMITS,
+    LimitsFile,
+    check_names,
+    laid_over,
+    parse_limits,
+)
+from formulations.robot.joints import (
+    QUANTITIES,
+    UNLIMITED,
+    Joint,
+    JointKind,
+    Mimic,
+    limited_by,
+    missing_limits,
+)
 from formulations.robot.kinematics import leader_of
 from formulations.robot.robot import Robot
 from formulations.robot.srdf import LARGEST_SRDF, parse_group
@@ -84,22 +99,12 @@ def robot_of(
         raise InputError(f"srdf: {srdf} is given without a group of it (group=...)")
     else:
         names = _chosen(tree, joints)
-    files = _listed("limits", limits)
-    read = [parse_limits(decode(read_bytes(f, largest=LARGEST_LIMITS), str(f)), str(f)) for f in files]
+    read = _limits_files(limits)
     known = {joint.name: joint.joint for joint in tree.joints}
     for file in read:
         check_names(file, known)
-    factors = {
-        "velocity": _factor("velocity_scaling", velocity_scaling, [f.velocity_scaling for f in read]),
-        "acceleration": _factor(
-            "acceleration_scaling", acceleration_scaling, [f.acceleration_scaling for f in read]
-        ),
-        "jerk": _factor("jerk_scaling", jerk_scaling, []),
-    }
-    free = _listed("unlimited", unlimited)
-    for quantity in free:
-        if quantity not in _FREE:
-            raise InputError(f"unlimited: {shown(quantity)}; {known_names(str(quantity), _FREE)}")
+    factors = _factors(read, velocity_scaling, acceleration_scaling, jerk_scaling)
+    free = _quantities(unlimited)
     in_force = {
         name: _in_force(laid_over(joint, read), factors, free)
         for name, joint in known.items()
@@ -123,6 +128,83 @@ def robot_of(
         tip=_link(tree, "tip", tip) or ends[1] or named[names[-1]].child,
         urdf=tree,
     )
+
+
+def limits_of(
+    names: Sequence[str],
+    limits: str | Path | Iterable[str | Path],
+    *,
+    unlimited: str | Iterable[str] = (),
+) -> Limits:
+    """Read the limits of joints from joint_limits.yaml files alone, without a URDF.
+
+    Parameters
+    ----------
+    names : sequence of str
+        The joints, in order; each must be in one of the files.
+    limits : str, Path or iterable of them
+        The files; of two that limit the same joint the later one counts. Their default factors are in force.
+    unlimited : str or iterable of str, optional
+        ``acceleration``, ``jerk`` or ``position`` where a joint without such a limit has none.
+
+    Returns
+    -------
+    Limits
+        Of these joints. Each is taken for a rotary one, because the files do not say what it is.
+
+    Raises
+    ------
+    InputError
+        One line that names the joint that is not in the files, or the limits that are missing.
+    """
+    read = _limits_files(limits)
+    listed = ", ".join(str(file) for file in _listed("limits", limits))
+    known = [name for file in read for name in file.joints]
+    for name in names:
+        if name not in known:
+            raise InputError(
+                f"{listed}: has no limits of joint {shown(name)}; {known_names(name, known)}"
+            )
+    factors, free = _factors(read, None, None, None), _quantities(unlimited)
+    joints = tuple(
+        _in_force(laid_over(Joint(name, JointKind.REVOLUTE), read), factors, free) for name in names
+    )
+    message = missing_limits(joints)
+    if message is not None:
+        raise InputError(f"{listed}: {message}")
+    return Robot(name=listed, joints=joints).limits
+
+
+def _limits_files(limits: Any) -> list[LimitsFile]:
+    """Read all limits files."""
+    return [
+        parse_limits(decode(read_bytes(file, largest=LARGEST_LIMITS), str(file)), str(file))
+        for file in _listed("limits", limits)
+    ]
+
+
+def _factors(
+    read: Sequence[LimitsFile],
+    velocity: float | None,
+    acceleration: float | None,
+    jerk: float | None,
+) -> dict[str, float]:
+    """The factors on the limits of each quantity: those given, or those of the files."""
+    by_files = [file.acceleration_scaling for file in read]
+    return {
+        "velocity": _factor("velocity_scaling", velocity, [file.velocity_scaling for file in read]),
+        "acceleration": _factor("acceleration_scaling", acceleration, by_files),
+        "jerk": _factor("jerk_scaling", jerk, []),
+    }
+
+
+def _quantities(unlimited: Any) -> list[str]:
+    """The quantities that a joint may go without, checked."""
+    free = _listed("unlimited", unlimited)
+    for quantity in free:
+        if quantity not in _FREE:
+            raise InputError(f"unlimited: {shown(quantity)}; {known_names(str(quantity), _FREE)}")
+    return free
 
 
 def _listed(key: str, given: Any) -> list[Any]:

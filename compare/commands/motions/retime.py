@@ -1,21 +1,26 @@
-"""``timebound retime MOTION --limits PROBLEM``: a path or a motion from elsewhere, timed anew."""
+"""``timebound retime MOTION --limits FILE``: a path or a motion from elsewhere, timed anew."""
 
 from __future__ import annotations
 
+from dataclasses import replace
 from typing import Annotated, Any, Literal
 
 import numpy as np
 from cyclopts import Parameter
 
 from compare.commands import DONE
+from compare.commands.motions.problem_options import names
 from compare.commands.options import Export, Json, Rate, positive
 from compare.screen import show, stages, table
-from formulations import InputError, NoFeasibleMotion, load
+from formulations import InputError, Limits, NoFeasibleMotion, load
 from formulations.assessment import Assessment
 from formulations.motion.files.motion_file import read_points
+from formulations.motion.files.motion_points import MotionPoints
+from formulations.motion.judgement import in_order_of
 from formulations.retiming.export import export_retimed
 from formulations.retiming.path import Path
 from formulations.retiming.retime import WAYS, Retimed, retime
+from formulations.robot import limits_of, robot_of
 
 
 def retime_motion(
@@ -24,7 +29,13 @@ def retime_motion(
     ],
     /,
     *,
-    limits: Annotated[str, Parameter(name="--limits", metavar="FILE")],
+    limits: Annotated[
+        tuple[str, ...],
+        Parameter(metavar="FILE", n_tokens=1, consume_multiple=False, show_default=False),
+    ] = (),
+    robot: Annotated[str | None, Parameter(metavar="URDF")] = None,
+    joints: Annotated[str | None, Parameter(metavar="NAME,..")] = None,
+    unlimited: Annotated[str | None, Parameter(metavar="NAME,..")] = None,
     tolerance: Annotated[float, Parameter(metavar="RAD", validator=positive)] = 1e-2,
     way: Literal["toppra", "copp", "free_form"] | None = None,
     export: Export = None,
@@ -40,23 +51,73 @@ def retime_motion(
     Parameters
     ----------
     limits
-        A problem file (TOML) or the name of a shipped case; its limits count, its waypoints do not.
+        A problem file (TOML) or the name of a shipped case, whose limits count and not its waypoints; or
+        MoveIt's joint_limits.yaml, several times if needed.
+    robot
+        The URDF that a joint_limits.yaml is laid over. Without it, that file must have all limits.
+    joints
+        The joints of a motion that names none, in order; all of the URDF that move if left out.
+    unlimited
+        acceleration, jerk or position: joints may have no such limit in these files.
     tolerance
         How far the third motion may leave the straight lines between the points, in joint space.
     way
         The motion that --export writes; the fastest one that keeps every limit if left out.
     """
-    posed = load(limits)
-    points = read_points(motion)
-    if points.positions.shape[1] != posed.dof:
-        raise InputError(f"{motion}: {points.positions.shape[1]} joints, {limits} has {posed.dof}")
+    points, allowed = _with_limits(motion, limits, robot, joints, unlimited)
     with stages(motion) as stage:
-        ways = retime(points, posed.limits, tolerance=tolerance, progress=stage)
+        ways = retime(points, allowed, tolerance=tolerance, progress=stage)
     text = as_text(motion, len(points.times), tolerance, ways)
     if export is not None:
         text += f"\n\n{_export(export, rate, ways, way, Path.of(points))}"
     show(text, as_json(motion, tolerance, ways), json)
     return DONE
+
+
+def _with_limits(
+    motion: str,
+    files: tuple[str, ...],
+    robot: str | None,
+    joints: str | None,
+    unlimited: str | None,
+) -> tuple[MotionPoints, Limits]:
+    """Read the points, and the limits of their joints in the same order."""
+    given = {"--joints": joints, "--unlimited": unlimited}
+    if not files and robot is None:
+        raise InputError("--limits: missing: a problem file, a shipped case, or a joint_limits.yaml")
+    points = read_points(motion)
+    are_yaml = [file.lower().endswith((".yaml", ".yml")) for file in files]
+    if robot is None and not all(are_yaml):
+        for key, value in given.items():
+            if value is not None:
+                raise InputError(f"{key}: given beside the problem file {files[0]}; leave it out")
+        if len(files) > 1:
+            raise InputError(
+                f"--limits: {files[are_yaml.index(False)]} is a problem file; give it alone"
+            )
+        posed = load(files[0])
+        points = in_order_of(posed.names, points)
+        named, allowed = posed.names, posed.limits
+    else:
+        chosen = names(joints) or points.names
+        if joints is not None:
+            points = in_order_of(chosen, points)
+        free = names(unlimited) or ()
+        if robot is not None:
+            arm = robot_of(robot, joints=chosen or None, limits=files, unlimited=free)
+            named, allowed = arm.names, arm.limits
+        elif chosen:
+            named, allowed = chosen, limits_of(chosen, files, unlimited=free)
+        else:
+            raise InputError(
+                f"{motion}: names no joints, so {files[0]} does not say which limit is whose; give "
+                "--joints NAME,.. or --robot URDF"
+            )
+    width = points.positions.shape[1]
+    if width != len(allowed.velocity):
+        where = robot or ", ".join(files)
+        raise InputError(f"{motion}: {width} joints, {where} has {len(allowed.velocity)}")
+    return replace(points, names=points.names or named), allowed
 
 
 def as_text(path: str, count: int, tolerance: float, ways: list[Retimed]) -> str:

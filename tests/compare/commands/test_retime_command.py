@@ -83,7 +83,7 @@ def test_a_way_can_be_chosen(
 
 
 def joined_by_quintics(file: Path) -> tuple[Array, Array]:
-    """Largest velocity, acceleration and jerk of each joint, (3, dof), and the times; read and joined without the project."""
+    """Largest velocity, acceleration and jerk of each joint, (3, dof), and times, without the project."""
     with file.open() as stream:
         rows = list(csv.reader(stream))
     table = np.array([[float(x) for x in row] for row in rows[1:]])
