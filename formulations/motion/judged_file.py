@@ -1,4 +1,4 @@
-"""A file of a motion that is judged before it is written: its bytes, read back and joined as a controller does."""
+"""A file that is judged before it is written: its bytes, read back and joined as a controller does."""
 
 from __future__ import annotations
 

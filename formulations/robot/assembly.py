@@ -171,7 +171,7 @@ def limits_of(
     )
     message = missing_limits(joints)
     if message is not None:
-        raise InputError(f"{listed}: {message}")
+        raise InputError(f"{listed}: {message}; or read the file beside a URDF that has them")
     return Robot(name=listed, joints=joints).limits
 
 

@@ -25,7 +25,8 @@ from formulations.robot import limits_of, robot_of
 
 def retime_motion(
     motion: Annotated[
-        str, Parameter(name="MOTION", help="Points in order: CSV, or a ROS JointTrajectory (JSON).")
+        str,
+        Parameter(name="MOTION", help="Points in order: CSV, or a ROS JointTrajectory (JSON, YAML)."),
     ],
     /,
     *,
