@@ -130,7 +130,7 @@ def test_a_path_is_timed_anew_under_the_limits_of_the_docs(folder: Path) -> None
     assert len(retimings) == 2
     run(first, folder)
     problem = f.load(folder / "panda.toml")
-    for block, name in zip(retimings, ("panda_copp.csv", "panda_copp.json"), strict=True):
+    for block, name in zip(retimings, ("panda_again.csv", "panda_toppra.json"), strict=True):
         said = run(block, folder)
         assert f"{name}: written" in said
         motion = f.read_motion(folder / name)
