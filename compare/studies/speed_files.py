@@ -94,8 +94,8 @@ def long_motion(seconds: float, dof: int = DOF) -> tuple[Problem, Trajectory]:
         )
     pieces = np.stack(phases, axis=1).reshape(4 * moves, dof, 4)
     motion = Trajectory(np.full(4 * moves, h), pieces, np.arange(moves + 1) * MOVE)
-    most = [1.001 * motion.reach(order) for order in (1, 2, 3)]
-    return Problem(waypoints, Limits.of(*most, (-1.6, 1.6), dof=dof), name="long"), motion
+    v, a, j = (1.001 * motion.reach(order) for order in (1, 2, 3))
+    return Problem(waypoints, Limits.of(v, a, j, (-1.6, 1.6), dof=dof), name="long"), motion
 
 
 def costs(seconds: float, rounds: int) -> list[FileCost]:
@@ -139,9 +139,18 @@ def _once(path: Path, problem: Problem, motion: Trajectory, points: MotionPoints
     moments.append(time.perf_counter())
     processor += time.process_time()
     path.unlink()
-    steps = np.diff(moments).tolist()
+    encode, decode, judge, store = np.diff(moments).tolist()
     return FileCost(
-        path.suffix, motion.seconds, len(points.times), len(data), *steps, processor, verdict.feasible
+        suffix=path.suffix,
+        motion_seconds=motion.seconds,
+        n_points=len(points.times),
+        size=len(data),
+        encode=encode,
+        decode=decode,
+        judge=judge,
+        store=store,
+        processor=processor,
+        feasible=verdict.feasible,
     )
 
 
