@@ -93,7 +93,7 @@ def long_motion(seconds: float, dof: int = DOF) -> tuple[Problem, Trajectory]:
             a + sign * jerk * h,
         )
     pieces = np.stack(phases, axis=1).reshape(4 * moves, dof, 4)
-    motion = Trajectory(np.full(4 * moves, h), pieces, np.arange(moves + 1) * MOVE)
+    motion = Trajectory(np.full(4 * moves, h), pieces, np.arange(moves + 1, dtype=np.float64) * MOVE)
     v, a, j = (1.001 * motion.reach(order) for order in (1, 2, 3))
     return Problem(waypoints, Limits.of(v, a, j, (-1.6, 1.6), dof=dof), name="long"), motion
 
