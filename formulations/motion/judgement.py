@@ -310,15 +310,12 @@ def _missed(misses: Array, times: Array, tolerance: float) -> list[Miss]:
 
 def _size(trajectory: Trajectory, order: int, scale: Array) -> Array:
     """Size of a derivative per joint: its scale where that is finite, or what the motion reaches, (dof,)."""
-    extremes = trajectory.extremes(order)
-    reach = np.maximum(-extremes.low, extremes.high).max(axis=0)
-    return np.asarray(np.maximum(np.where(np.isfinite(scale), scale, 0.0), reach))
+    return np.maximum(np.where(np.isfinite(scale), scale, 0.0), trajectory.reach(order))
 
 
 def _rounding(trajectory: Trajectory, order: int, size: Array) -> Array:
     """Relative excess of a derivative that is rounding, per joint: between 1e-9 and 1e-6, (dof,)."""
-    positions = trajectory.extremes(0)
-    reach = np.maximum(-positions.low, positions.high).max(axis=0)
+    reach = trajectory.reach(0)
     short = float(trajectory.durations.min())
     with np.errstate(divide="ignore", over="ignore"):
         share = _STEPS * np.finfo(np.float64).eps * reach / (short**order * np.maximum(size, 1e-300))

@@ -134,17 +134,14 @@ def _found(
     found = []
     for order, scale in enumerate(scales):
         # rounding grows with the size of the motion itself; 1e-300 for joints that never move
-        extremes = trajectory.extremes(order)
-        reach = np.maximum(-extremes.low, extremes.high).max(axis=0)
-        allowed = np.maximum(scale, TOLERANCE * reach) + 1e-300
+        allowed = np.maximum(scale, TOLERANCE * trajectory.reach(order)) + 1e-300
         if relative is not None:
             allowed = allowed * (relative[order] / TOLERANCE)
-        excess = sizes[order] / allowed
-        worst = excess.max(axis=0, initial=0.0)
+        worst = sizes[order].max(axis=0, initial=0.0) / allowed
         for joint in np.argsort(-worst, kind="stable").tolist():
             if worst[joint] > 1.0:
-                at = int(excess[:, joint].argmax())
-                count = int((excess[:, joint] > 1.0).sum())
-                size = float(sizes[order][at, joint])
-                found.append(Jump(QUANTITIES[order], joint, float(times[at]), size, count))
+                mine = sizes[order][:, joint]
+                at = int(mine.argmax())
+                count = int((mine > allowed[joint]).sum())
+                found.append(Jump(QUANTITIES[order], joint, float(times[at]), float(mine[at]), count))
     return found

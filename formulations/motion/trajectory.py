@@ -4,13 +4,13 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 from functools import cached_property
-from math import factorial
+from math import factorial, perm
 
 import numpy as np
 from numpy.typing import ArrayLike
 from scipy.interpolate import PPoly
 
-from formulations.motion.extremes import Extremes, differentiated, evaluated, find_extremes
+from formulations.motion.extremes import Extremes, find_extremes
 from formulations.problem.arrays import Array
 from formulations.problem.errors import InputError
 
@@ -212,16 +212,32 @@ class Trajectory:
             self._extremes[order] = find_extremes(self._normalised, self.durations, self.breaks, order)
         return self._extremes[order]
 
+    def reach(self, order: int) -> Array:
+        """Find the largest absolute value of a derivative in the whole motion.
+
+        Parameters
+        ----------
+        order : int
+            Order of the derivative; 0 is the position.
+
+        Returns
+        -------
+        Array, shape (dof,)
+            [rad/s^order].
+        """
+        found = self.extremes(order)
+        return np.asarray(np.maximum(-found.low.min(axis=0), found.high.max(axis=0)))
+
     @cached_property
     def _extremes(self) -> dict[int, Extremes]:
         return {}
 
     @cached_property
     def _normalised(self) -> Array:
-        """Coefficients on normalised time s = t / T of each piece."""
-        return self.coefficients * self.durations[:, None, None] ** np.arange(
-            self.coefficients.shape[2]
-        )
+        """Coefficients on normalised time s = t / T of each piece; in memory a row per power."""
+        rows = np.moveaxis(self.coefficients, -1, 0)
+        factors = self.durations[:, None] ** np.arange(len(rows))[:, None, None]
+        return np.moveaxis(np.multiply(rows, factors, order="C"), 0, -1)
 
     @cached_property
     def jumps_between(self) -> Array:
@@ -241,6 +257,8 @@ class Trajectory:
 
     def _end(self, order: int) -> Array:
         """The same at its end."""
-        value = differentiated(self._normalised, order)
-        at = np.broadcast_to(1.0, (*value.shape[:2], 1))
-        return np.asarray(evaluated(value, at)[..., 0] / self.durations[:, None] ** order)
+        powers = range(self.coefficients.shape[2] - 1, order - 1, -1)
+        value = np.zeros(self.coefficients.shape[:2])
+        for power in powers:
+            value += self._normalised[..., power] * perm(power, order)
+        return np.asarray(value / self.durations[:, None] ** order)

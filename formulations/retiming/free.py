@@ -70,7 +70,7 @@ def by_free_form(
     for _ in range(_ROUNDS):
         if len(chosen) > _MOST:
             return f"{len(chosen)} waypoints are needed to stay within {tolerance:g} rad, above {_MOST}"
-        problem = Problem.of(path.points[chosen], limits, name="path")
+        problem = Problem.of(path.points[chosen], limits, name="path", names=path.names)
         if progress is not None:
             progress(f"fastest motion through {len(chosen)} points")
         try:

@@ -97,8 +97,8 @@ def retime(
     if not (np.isfinite(tolerance) and tolerance > 0.0):
         raise InputError(f"tolerance: {tolerance:g} rad is not a positive distance")
     path = Path.of(motion)
-    Problem.of(path.points, limits)  # refuses points outside the position limits
-    ends = Problem.of(path.points[[0, -1]], limits, name="path")
+    Problem.of(path.points, limits, names=path.names)  # refuses points outside the position limits
+    ends = Problem.of(path.points[[0, -1]], limits, name="path", names=path.names)
     say = progress or (lambda stage: None)
     ways = []
     if not isinstance(motion, np.ndarray):
@@ -121,7 +121,7 @@ def _judged(key: str, path: Path, problem: Problem, motion: Trajectory | str) ->
     """Judge a motion, and stretch it until it keeps every limit."""
     if isinstance(motion, str):
         return Retimed(key, reason=motion)
-    judged = replace(judge(problem, motion), names=path.names)
+    judged = judge(problem, motion)
     kept = None
     if judged.feasible:
         kept = judged.motion

@@ -194,6 +194,11 @@ def limits_for(points: MotionPoints, own: OwnRobot | None) -> tuple[MotionPoints
         files = own.files
         if files.joints is None and files.group is None and points.names:
             files = replace(files, joints=points.names)
+        elif files.joints is None and own.robot is None:
+            raise InputError(
+                f"MOTION: names no joints, so {own.limits[0]} does not say which limit is whose; "
+                "give --joints NAME,.. or --robot URDF"
+            )
         robot = files.read()
         limits, wanted, whose = robot.limits, robot.names, own.robot or own.limits[0]
     count, given = len(limits.velocity), points.positions.shape[1]

@@ -1,4 +1,4 @@
-"""``timebound retime MOTION --limits PROBLEM``: a path or a motion from elsewhere, timed anew."""
+"""``timebound retime MOTION --limits FILE``: a path or a motion from elsewhere, timed anew."""
 
 from __future__ import annotations
 
@@ -11,18 +11,18 @@ from compare.commands import DONE
 from compare.commands.motions.problem_options import OwnRobotOptions, limits_for
 from compare.commands.options import Export, Json, Rate, positive
 from compare.screen import show, stages, table
-from formulations import NoFeasibleMotion, write_motion
+from formulations import NoFeasibleMotion
 from formulations.assessment import Assessment
 from formulations.motion.files.motion_file import read_points
-from formulations.motion.judgement import judge
-from formulations.optima.at_rate.motion import at_rate
+from formulations.retiming.export import export_retimed
 from formulations.retiming.path import Path
 from formulations.retiming.retime import WAYS, Retimed, retime
 
 
 def retime_motion(
     motion: Annotated[
-        str, Parameter(name="MOTION", help="Points in order: CSV, or a ROS JointTrajectory (JSON).")
+        str,
+        Parameter(name="MOTION", help="Points in order: CSV, or a ROS JointTrajectory (JSON, YAML)."),
     ],
     /,
     *,
@@ -147,24 +147,29 @@ def _note(way: Retimed) -> str:
 
 
 def _export(path: str, rate: float | None, ways: list[Retimed], wanted: str | None, given: Path) -> str:
-    """Write a motion that keeps every limit, and judge what was written."""
+    """Write the fastest motion that keeps every limit, and say how the file was judged."""
     kept = {way.key: way for way in ways if way.kept is not None and way.key != "given"}
     if wanted is not None:
         kept = {key: way for key, way in kept.items() if key == wanted}
     if not kept:
-        raise NoFeasibleMotion(f"--export: no motion of {wanted or 'any way'} keeps every limit")
+        raise NoFeasibleMotion(
+            f"{path}: not written: no motion of {wanted or 'any way'} keeps every limit"
+            f"{_reasons(ways, wanted)}"
+        )
     best = min(kept.values(), key=lambda way: way.kept.seconds if way.kept else np.inf)
-    assert best.kept is not None
-    assert best.problem is not None
-    motion = best.kept
-    if best.key == "free_form":
-        # its jerk switches between the points of a file, where the quintics between them overshoot
-        motion = at_rate(best.problem, motion, rate).trajectory
-    write_motion(path, motion, rate=rate)
-    written = judge(best.problem, read_points(path))
+    written = export_retimed(path, best, rate)
     away = given.farthest(written.motion)[1]
-    line = f"{path}: {best.key}, {written.seconds:.6g} s, written; {away:.1e} rad off the path"
-    if written.violations:
-        line += f"; joined by a controller: {written.violations[0]}"
-        line += f"; stretch it by {written.stretch_for_limits:.6g}, or write more points"
-    return line
+    return "\n".join([*written.lines(), f"  {best.key}; {away:.1e} rad off the path"])
+
+
+def _reasons(ways: list[Retimed], wanted: str | None) -> str:
+    """Why no stretch mends the ways: the end of a message."""
+    found = []
+    for way in ways:
+        if way.key == "given" or wanted not in (None, way.key):
+            continue
+        violations = way.judgement.violations if way.judgement is not None else ()
+        lasting = [peak for peak in violations if not np.isfinite(peak.stretch)]
+        reason = way.reason or (str(lasting[0]) if lasting else "")
+        found += [f"; {way.key}: {reason}"] if reason else []
+    return "".join(found)

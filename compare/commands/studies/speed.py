@@ -1,4 +1,4 @@
-"""``timebound speed``: candidate checks per second, and what a swarm costs beside its objective."""
+"""``timebound speed``: candidate checks per second, what a swarm costs, and what writing a file costs."""
 
 from __future__ import annotations
 
@@ -11,14 +11,18 @@ from compare.commands.options import Json, positive
 from compare.commands.studies import alone
 from compare.screen import show
 from compare.studies import speed as checks
+from compare.studies.speed_files import FILES
 from compare.studies.speed_swarms import COSTS, PAIRED
 from formulations import InputError, load
+
+_FIVE_MINUTES = 300.0  # s
 
 
 def speed(
     *,
     case: str = "sr4c",
     swarms: bool = False,
+    files: bool = False,
     rounds: Annotated[int, Parameter(validator=positive)] = 5,
     json: Json = None,
 ) -> int:
@@ -30,9 +34,18 @@ def speed(
         A problem file or a shipped case; of the family 3-5-3, unless --swarms is given.
     swarms
         Show instead what each swarm costs beside its objective, and beside the same swarm in mealpy.
+    files
+        Show instead what it takes to write five minutes of seven joints at 1 kHz in each format, read back
+        and judged.
     rounds
         Rounds; the best one counts.
     """
+    if files:
+        if swarms:
+            raise InputError("--files: given beside --swarms; leave one of them out")
+        one = alone(FILES, [(_FIVE_MINUTES, rounds)], out=None, resume=False)
+        show(one.as_text(), one.to_json(), json)
+        return DONE
     problem = load(case)
     if not swarms and problem.family != "3-5-3":
         raise InputError(f"--case: the papers' 14x14 matrix is 3-5-3's, {case} is {problem.family}")

@@ -12,15 +12,14 @@ from pathlib import Path
 import numpy as np
 
 from formulations.motion.files.formats import format_to_write
-from formulations.motion.files.motion_file import decode_motion, encode_motion, points_of
-from formulations.motion.files.motion_points import MotionPoints
+from formulations.motion.files.motion_file import points_of
+from formulations.motion.judged_file import JudgedFile
 from formulations.motion.trajectory import Trajectory
-from formulations.motion.verdict import Verdict, check
+from formulations.motion.verdict import Verdict
 from formulations.optima.at_rate.motion import at_rate
 from formulations.optima.at_rate.requests import check_request, require_exportable
 from formulations.problem.conditions import Conditions
 from formulations.problem.errors import InputError, NoFeasibleMotion
-from formulations.problem.files import write_bytes
 from formulations.problem.problem import Problem
 
 _FINER = (2, 4, 8, 16, 32)  # times the rate, where points are too coarse
@@ -38,26 +37,29 @@ class Export:
         Time of the motion that the file holds.
     given_seconds : float [s]
         Time of the motion that was to be written.
-    rounding_up : float [s]
-        What it costs that each segment takes a whole number of periods; 0 without a rate.
-    margin : float
-        Largest share of a limit that is left free for the rounding of positions and times.
     n_points : int
         Points of the file; for exact pieces, where they meet.
     rate : float or None [1/s]
         Points per second, if they are even.
+    motion : Trajectory
+        What a controller makes of the file.
     verdict : Verdict
-        About the file, joined as a controller joins it.
+        About this motion.
+    price : str
+        What the file takes longer for than the motion that was given.
+    notes : tuple of str
+        What else is to be said, a line each.
     """
 
     path: str
     seconds: float
     given_seconds: float
-    rounding_up: float
-    margin: float
     n_points: int
     rate: float | None
+    motion: Trajectory
     verdict: Verdict
+    price: str = ""
+    notes: tuple[str, ...] = ()
 
     @property
     def cost(self) -> float:
@@ -70,7 +72,7 @@ class Export:
         Returns
         -------
         list of str
-            Two or three lines.
+            Two lines, one for the price if there is one, and the notes.
         """
         at = "" if self.rate is None else f" at {self.rate:g} per second"
         used = {
@@ -84,18 +86,10 @@ class Export:
         ]
         if self.cost > 0.0:
             share = 100.0 * self.cost / self.given_seconds
-            parts = []
-            if self.rate is not None:
-                parts.append(f"{self.rounding_up:.4g} s to round segments up to whole periods")
-            rest = max(self.cost - self.rounding_up, 0.0)
-            parts.append(
-                f"{rest if rest > 1e-12 else 0.0:.4g} s to switch at points, with a margin of "
-                f"{self.margin:.2g} of the limits for rounding"
-            )
             lines.append(
-                f"  {self.cost:.4g} s ({share:.3g} %) longer than the motion found: {'; '.join(parts)}"
+                f"  {self.cost:.4g} s ({share:.3g} %) longer than the motion found: {self.price}"
             )
-        return lines
+        return [*lines, *(f"  {note}" for note in self.notes)]
 
 
 _ORDER = ("velocity", "acceleration", "jerk")
@@ -168,12 +162,10 @@ def export_motion(
     """
     names = problem.names if names is None else tuple(names)
     exact = format_to_write(path) is None
-    margin, rounding_up = 0.0, 0.0
     if exact and rate is None:
         require_exportable(problem, trajectory.seconds, None)
-        motion, times = trajectory, trajectory.breaks
+        motion, times, margin = trajectory, trajectory.breaks, 0.0
     else:
-        require_exportable(problem, trajectory.seconds, rate)
         try:
             found = at_rate(problem, trajectory, rate, conditions=conditions)
         except NoFeasibleMotion as reason:
@@ -181,28 +173,36 @@ def export_motion(
                 f"{path}: not written: {reason}{_finer(problem, trajectory, rate, conditions)}"
             ) from None
         motion, times, margin = found.trajectory, found.times, found.margin
-        if rate is not None:
-            periods = np.diff(trajectory.passage_times) * rate
-            rounding_up = float((np.ceil(periods - 1e-6) - periods).sum() / rate)
-    data = encode_motion(path, motion if exact else points_of(motion, times, names), names)
-    back = decode_motion(path, data)
-    judged = back.motion("auto", motion.passage_times) if isinstance(back, MotionPoints) else back[0]
-    verdict = check(problem, judged, conditions=conditions)
-    if not verdict.feasible:
-        raise NoFeasibleMotion(
-            f"{path}: not written: its points, joined as a controller does, fail: {verdict.faults[0]}"
-        )
-    write_bytes(path, data)
+    content = motion if exact else points_of(motion, times, names)
+    file = JudgedFile.of(
+        path, problem, content, motion.passage_times, names=names, conditions=conditions
+    )
+    file.write()
     return Export(
         path=str(path),
-        seconds=verdict.seconds,
+        seconds=file.verdict.seconds,
         given_seconds=trajectory.seconds,
-        rounding_up=rounding_up,
-        margin=margin,
         n_points=len(times),
         rate=rate,
-        verdict=verdict,
+        motion=file.motion,
+        verdict=file.verdict,
+        price=_price(trajectory, file.verdict.seconds, rate, margin),
     )
+
+
+def _price(trajectory: Trajectory, seconds: float, rate: float | None, margin: float) -> str:
+    """What the points cost: whole periods, and switches at points."""
+    parts, rounding_up = [], 0.0
+    if rate is not None:
+        periods = np.diff(trajectory.passage_times) * rate
+        rounding_up = float((np.ceil(periods - 1e-6) - periods).sum() / rate)
+        parts.append(f"{rounding_up:.4g} s to round segments up to whole periods")
+    rest = max(seconds - trajectory.seconds - rounding_up, 0.0)
+    parts.append(
+        f"{rest if rest > 1e-12 else 0.0:.4g} s to switch at points, with a margin of "
+        f"{margin:.2g} of the limits for rounding"
+    )
+    return "; ".join(parts)
 
 
 def _finer(

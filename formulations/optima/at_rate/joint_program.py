@@ -14,10 +14,13 @@ from dataclasses import dataclass
 from typing import Any
 
 import numpy as np
+from scipy.linalg import qr, solve_triangular
 from scipy.optimize import linprog
 from scipy.sparse import csr_matrix, vstack
 
 from formulations.problem.arrays import Array, Indices
+
+_DEPENDENT = 1e-13  # relative size below which a state adds nothing to those before it
 
 
 @dataclass(frozen=True)
@@ -283,14 +286,19 @@ def _corrected(
         fixed += [*((2, at, 0.0) for at in stops), (2, last, 0.0)]
     effects = np.array([_effect(times, order, at) for order, at, _ in fixed])
     scale = np.abs(effects).max(axis=1)
-    usable = scale > 0.0
+    usable = np.flatnonzero(scale > 0.0)
+    # the least change that adds given amounts to the states lies in the span of their effects
+    basis, triangle, order_of = qr(
+        (effects[usable] / scale[usable, None]).T, mode="economic", pivoting=True
+    )
+    sizes = np.abs(np.diag(triangle))
+    rank = int((sizes > _DEPENDENT * sizes[0]).sum())
+    free = usable[order_of[:rank]]  # the other states follow from these
     for _ in range(2):
         states = integrated(d, jerks[:, None], start[:, None])[..., 0]
         missing = np.array([value - states[order, at] for order, at, value in fixed])
-        change, *_ = np.linalg.lstsq(
-            effects[usable] / scale[usable, None], missing[usable] / scale[usable], rcond=1e-13
-        )
-        jerks = jerks + change
+        amounts = solve_triangular(triangle[:rank, :rank], missing[free] / scale[free], trans="T")
+        jerks = jerks + basis[:, :rank] @ amounts
     return np.asarray(jerks)
 
 

@@ -132,6 +132,26 @@ def test_each_robot_of_the_docs(index: int, robot: str, folder: Path) -> None:
     keeps_limits(problem, folder / OUTPUTS[robot], robot)
 
 
+def test_a_path_is_timed_anew_under_the_limits_of_the_docs(folder: Path) -> None:
+    import formulations as f
+
+    first, *others = blocks(DOCS, "sh")
+    retimings = [block for block in others if "timebound retime" in block]
+    assert len(retimings) == 2
+    run(first, folder)
+    problem = f.load(folder / "panda.toml")
+    for block, name in zip(retimings, ("panda_again.csv", "panda_toppra.json"), strict=True):
+        said = run(block, folder)
+        assert f"{name}: written" in said
+        motion = f.read_motion(folder / name)
+        times = np.linspace(0.0, motion.seconds, 20_001)
+        for order, limit in enumerate(LIMITS["panda"], 1):
+            assert (np.abs(motion.at(times, order)) <= np.asarray(limit) * (1 + 1e-6)).all()
+        np.testing.assert_allclose(
+            motion.at([0.0, motion.seconds]), problem.waypoints[[0, -1]], atol=1e-6
+        )
+
+
 def test_the_other_blocks_of_the_docs(folder: Path) -> None:
     import formulations as f
 

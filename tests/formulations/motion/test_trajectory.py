@@ -108,3 +108,23 @@ def test_sample_times_never_repeat_where_the_end_is_a_multiple_of_the_step(
 def test_a_rate_that_is_no_rate_is_refused(rate: float) -> None:
     with pytest.raises(InputError):
         spline().sample(rate)
+
+
+def test_what_a_motion_reaches_is_its_largest_size_however_it_lies_in_memory() -> None:
+    rng = np.random.default_rng(5)
+    c = rng.normal(size=(40, 3, 6))
+    rows = np.moveaxis(np.ascontiguousarray(np.moveaxis(c, -1, 0)), 0, -1)
+    lengths = rng.uniform(0.1, 2.0, 40)
+    motion, same = Trajectory(lengths, c), Trajectory(lengths, rows)
+    u = np.linspace(0.0, 1.0, 4001)
+    for order in range(4):
+        sizes = np.zeros(3)
+        for piece in range(40):
+            for joint in range(3):
+                values = np.polynomial.Polynomial(c[piece, joint]).deriv(order)(u * lengths[piece])
+                sizes[joint] = max(sizes[joint], np.abs(values).max())
+        np.testing.assert_allclose(motion.reach(order), sizes, rtol=1e-5)
+        assert (motion.reach(order) >= sizes * (1.0 - 1e-12)).all()
+        assert np.array_equal(motion.extremes(order).high, same.extremes(order).high)
+        assert np.array_equal(motion.extremes(order).time_low, same.extremes(order).time_low)
+    np.testing.assert_allclose(motion.jumps_between, same.jumps_between, rtol=1e-15)
