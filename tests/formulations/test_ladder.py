@@ -296,7 +296,7 @@ def test_a_problem_in_which_nothing_moves_has_a_ladder(rows: int) -> None:
 
 def test_a_family_without_a_feasible_motion_is_a_failed_rung(monkeypatch: pytest.MonkeyPatch) -> None:
     """The cube reaches the limit with speed and has to overshoot; Ruckig stops there and does not."""
-    quick = functools.partial(family_optimum, random_starts=0)
+    quick = functools.partial(family_optimum, starts=3)
     monkeypatch.setattr(sys.modules["formulations.rungs"], "family_optimum", quick)
     limits = Limits.of(1.0, 1.0, position=[[0.0, 1.0]], dof=1)
     found = ladder(Problem.of([[0.0], [1.0], [0.0], [1.0]], limits))
