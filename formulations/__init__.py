@@ -16,8 +16,8 @@ from formulations.problem.conditions import Conditions
 from formulations.problem.errors import InputError, NoFeasibleMotion, NotFoundInTime, UnsupportedProblem
 from formulations.problem.problem import Limits, Problem
 from formulations.problem.toml_file.problem_file import CASES, load, parse
-from formulations.proofs.every_motion.bound import FreeFormBound, free_form_bound
 from formulations.proofs.each_joint import each_joint_alone
+from formulations.proofs.every_motion.bound import FreeFormBound, free_form_bound
 from formulations.proofs.family import FamilyBound, family_bound, proved_optimum
 from formulations.robot import Robot, robot_of, waypoints_of
 from formulations.rungs import REFERENCES, RUNGS, ladder

@@ -14,14 +14,14 @@ from formulations.climb import Climb, Ladder, RungResult
 from formulations.deadlines import Deadline
 from formulations.deadlines.deadline import Stop
 from formulations.families import FAMILIES
-from formulations.motion.verdict import check
+from formulations.motion.verdict import TOLERANCE, check
 from formulations.optima.family.papers_rule import longest_segment
 from formulations.optima.free_form import free_form
 from formulations.problem.errors import InputError
 from formulations.problem.problem import Problem
 from formulations.problem.size import require_moderate
-from formulations.proofs.every_motion.bound import free_form_bound
 from formulations.proofs.each_joint import each_joint_alone
+from formulations.proofs.every_motion.bound import free_form_bound
 from formulations.proofs.family import family_bound, proved_optimum
 from formulations.proofs.status import BoundStatus
 from formulations.references.copp_ import COPP_FAMILY_PATH
@@ -213,17 +213,14 @@ def _free_form(climb: Climb) -> Outcome:
 
 
 def _family(climb: Climb) -> Outcome:
-    optimum, climb.bound = proved_optimum(
-        climb.problem,
-        gap=_GAP,
-        time_limit=_SHARE * climb.deadline.left,
-        record=climb.certificate,
-        **climb.search,
+    left = _SHARE * climb.deadline.left
+    optimum, bound = proved_optimum(
+        climb.problem, gap=_GAP, time_limit=left, record=climb.certificate, **climb.search
     )
     verdict = optimum.verdict
     if not verdict.feasible:
         return Outcome.failed(f"did not pass the check: {verdict.faults[0]}")
-    climb.optimum = optimum
+    climb.optimum, climb.bound = optimum, bound if climb.certify else None
     return Outcome.ok(
         verdict.seconds,
         durations=optimum.durations,
@@ -275,7 +272,8 @@ def _longest_segment(climb: Climb) -> Outcome:
     claim = f"claims {rule.claimed.sum():.6g} s"
     if not verdict.feasible:
         return Outcome.failed(f"{claim}; no stretch mends it: {verdict.faults[0]}")
-    broken = "keeps the limits" if rule.stretch <= 1.0 else f"needs a stretch of {rule.stretch:.6g}"
+    kept = rule.stretch <= 1.0 + TOLERANCE
+    broken = "keeps the limits" if kept else f"needs a stretch of {rule.stretch:.6g}"
     return Outcome.ok(
         verdict.seconds,
         durations=rule.durations,

@@ -35,9 +35,9 @@ def each_joint_alone(
     """
     deadline = Deadline(time_limit, stop)
     return tuple(
-        proved_optimum(
-            problem.joint(j), starts=starts, seed=seed, time_limit=deadline.left, stop=stop
-        )[0]
+        proved_optimum(problem.joint(j), starts=starts, seed=seed, time_limit=deadline.left, stop=stop)[
+            0
+        ]
         if j in problem.moving_joints
         else None
         for j in range(problem.dof)

@@ -1,4 +1,4 @@
-"""The certified global lower bound of a spline family, and the registry of provers.
+"""The optimum and the certified lower bound of a spline family, and the registry of provers.
 
 Branch and bound proves that no durations of the family take L seconds or less, for L = upper / (1 +
 gap), where ``upper`` is the time of a verified motion. Every operation that carries the proof is rounded
@@ -322,7 +322,7 @@ def proved_optimum(
             if deadline.over:
                 return best, None
     many = family_optimum(problem, starts=starts, seed=seed, time_limit=deadline.left, stop=stop)
-    return best_of(problem, [*known[1:], *many.starts]), None
+    return best_of(problem, [*many.starts, *known[1:]]), None
 
 
 def _refusal(problem: Problem) -> str:

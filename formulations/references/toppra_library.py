@@ -27,7 +27,7 @@ def _without_plotting() -> ModuleType:
     if any(name in sys.modules for name in _PLOTTING):
         return import_module("toppra")
     library, pyplot = stand_ins = [_LoadedOnUse(name) for name in _PLOTTING]
-    library.pyplot = pyplot
+    vars(library)["pyplot"] = pyplot
     sys.modules.update(zip(_PLOTTING, stand_ins, strict=True))
     try:
         return import_module("toppra")

@@ -2,11 +2,8 @@
 
 from __future__ import annotations
 
-import functools
 import json
 import math
-import re
-import sys
 from typing import Any
 
 import numpy as np
@@ -23,7 +20,6 @@ from formulations import (
     Limits,
     Problem,
     check,
-    family_optimum,
     ladder,
     load,
     parse,

@@ -175,9 +175,7 @@ def family_optimum(
     return best_of(problem, ended, family=chosen.name)
 
 
-def best_of(
-    problem: Problem, starts: Sequence[Start], *, family: str | None = None
-) -> FamilyOptimum:
+def best_of(problem: Problem, starts: Sequence[Start], *, family: str | None = None) -> FamilyOptimum:
     """Return the best of some starts.
 
     Parameters

@@ -56,10 +56,9 @@ def test_random_3_5_3_problems_are_all_proved() -> None:
     found_by_the_proof = 0
     for i in range(60):
         problem = random_problem(rng, 3, int(rng.integers(1, 8)), ("V", "VA", "VAJ")[i % 3])
-        if i % 2:
-            start = family_optimum(problem, starts=3)
-        else:  # a feasible motion that is no optimum: proof and NLP must find it together
-            start = FamilyOptimum(problem, "3-5-3", np.ones(3), ())
+        # half begin at a feasible motion that is no optimum: proof and NLP must find it together
+        poor = FamilyOptimum(problem, "3-5-3", np.ones(3), ())
+        start = family_optimum(problem, starts=3) if i % 2 else poor
         bound = family_bound(problem, gap=1e-5, optimum=start)
         holds(bound, 1e-5)
         found_by_the_proof += not i % 2 and bound.upper < stretched(start) * (1.0 - 1e-3)
