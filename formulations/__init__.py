@@ -8,11 +8,7 @@ from formulations.motion.files.motion_file import read_motion, read_points, writ
 from formulations.motion.trajectory import Trajectory
 from formulations.motion.verdict import Verdict, check
 from formulations.optima.at_rate.export import Export, export_motion
-from formulations.optima.family.optimum import (
-    FamilyOptimum,
-    each_joint_alone,
-    family_optimum,
-)
+from formulations.optima.family.optimum import FamilyOptimum, family_optimum
 from formulations.optima.family.papers_rule import longest_segment
 from formulations.optima.free_form import FreeForm, Sensitivity, free_form
 from formulations.planning import PlannedMotion, plan
@@ -20,8 +16,9 @@ from formulations.problem.conditions import Conditions
 from formulations.problem.errors import InputError, NoFeasibleMotion, NotFoundInTime, UnsupportedProblem
 from formulations.problem.problem import Limits, Problem
 from formulations.problem.toml_file.problem_file import CASES, load, parse
+from formulations.proofs.each_joint import each_joint_alone
 from formulations.proofs.every_motion.bound import FreeFormBound, free_form_bound
-from formulations.proofs.family import FamilyBound, family_bound
+from formulations.proofs.family import FamilyBound, family_bound, proved_optimum
 from formulations.robot import Robot, robot_of, waypoints_of
 from formulations.rungs import REFERENCES, RUNGS, ladder
 
@@ -60,6 +57,7 @@ __all__ = [
     "longest_segment",
     "parse",
     "plan",
+    "proved_optimum",
     "read_motion",
     "read_points",
     "robot_of",

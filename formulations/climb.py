@@ -130,7 +130,7 @@ class Climb:
     ----------
     problem : Problem
     seed : int
-        Seed of the NLP's random starts.
+        Seed of the NLP's starts.
     certify : bool
         Whether ``family_lower`` is to be proved.
     certificate : bool
@@ -139,6 +139,8 @@ class Climb:
         Relative gap aimed at between ``free_form`` and ``free_form_lower``.
     deadline : Deadline
         Rungs that have not begun when it is over are not climbed, and say so.
+    starts : int or None
+        Number of starts of the family's NLP; by default one, where a short proof shows that it suffices.
     results, durations, trajectories, optimum, alone, bound, free_form, free_form_bound
         As in ``Ladder``.
     """
@@ -149,6 +151,7 @@ class Climb:
     certificate: bool = False
     gap: float = 1e-3
     deadline: Deadline = NEVER
+    starts: int | None = None
     results: dict[str, RungResult] = field(default_factory=dict)
     durations: dict[str, Array] = field(default_factory=dict)
     trajectories: dict[str, Trajectory] = field(default_factory=dict)
@@ -157,6 +160,11 @@ class Climb:
     bound: FamilyBound | None = None
     free_form: FreeForm | None = None
     free_form_bound: FreeFormBound | None = None
+
+    @property
+    def search(self) -> dict[str, Any]:
+        """Options of every search for an optimum of the family."""
+        return {"starts": self.starts, "seed": self.seed, "stop": self.deadline.stop}
 
     def seconds(self, key: str) -> float | None:
         """Return the number of a rung climbed before.

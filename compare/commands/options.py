@@ -268,6 +268,11 @@ Seeds = Annotated[int, Parameter(name="--seeds", validator=positive, help="Numbe
 Seed = Annotated[
     int, Parameter(name="--seed", validator=not_negative, help="Seed of the random numbers.")
 ]
+Starts = Annotated[
+    int | None,
+    Parameter(name="--starts", validator=positive,
+              help="Starts of the family's optimiser; if left out, one start and a proof that none is faster."),
+]  # fmt: skip
 Budget = Annotated[
     int, Parameter(name="--budget", validator=positive, help="Evaluations of the objective per run.")
 ]

@@ -1,6 +1,7 @@
 """Certified lower bounds of the total time; every operation that a bound rests on is rounded outward.
 
-family              the bound of a spline family, and the registry of provers
+family              the optimum and the bound of a spline family, and the registry of provers
+each_joint          the optimum of every joint by itself
 alternation         proof and nonlinear program in turn, until they meet
 proof               an attempt to prove one bound, run in slices
 domain              displacements, limits and the domain of the durations, rounded outward

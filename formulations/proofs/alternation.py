@@ -44,6 +44,7 @@ class Alternation:
         durations: Array,
         *,
         least: float = 0.0,
+        most_boxes: int | None = None,
         record: bool = False,
         stop: Stop | None = None,
         progress: Callable[[float, int], None] | None = None,
@@ -60,6 +61,8 @@ class Alternation:
             Durations to start from.
         least : float [s]
             A bound that is known already: no attempt is made at less.
+        most_boxes : int, optional
+            Boxes of all attempts together, after which the alternation ends.
         record : bool
             Whether the proofs are kept for a certificate.
         stop : callable, optional
@@ -75,6 +78,7 @@ class Alternation:
         self.problem, self.begin, self.record, self.progress = problem, begin, record, progress
         self.least, self.interrupt = least, Deadline(None, stop)
         self.boxes, self.restarts = 0, 0
+        self.most_boxes = np.inf if most_boxes is None else most_boxes
         self.best: Proof | None = None
         self.upper, self.durations = np.inf, durations
         self._adopt(durations)
@@ -91,7 +95,7 @@ class Alternation:
         A first attempt goes for the final gap, for a tenth of the time: it suffices for most problems.
         Then the gaps go from coarse to fine, so that a time limit leaves a bound that is nearly as good.
         An anytime prover needs no coarse gaps, because its unfinished attempts are bounds as well: it
-        goes for the final gap all the time.
+        goes for the final gap all the time. With a limit on the boxes there is the first attempt alone.
 
         Parameters
         ----------
@@ -108,9 +112,10 @@ class Alternation:
             Why it is undecided; empty otherwise.
         """
         started = time.perf_counter()
-        self.deadline = started + (1.0 if self.anytime else _DIRECT) * time_limit
+        short = np.isfinite(self.most_boxes)
+        self.deadline = started + (1.0 if self.anytime or short else _DIRECT) * time_limit
         outcome = self._pursue(gap)
-        if outcome[0] is BoundStatus.PROVED or self.anytime:
+        if outcome[0] is BoundStatus.PROVED or self.anytime or short:
             return outcome
         self.deadline = started + time_limit
         coarse = [10.0**-e for e in range(12) if 10.0**-e > 2.0 * gap]
@@ -139,7 +144,8 @@ class Alternation:
             if self.interrupt.over:
                 return BoundStatus.INTERRUPTED, ""
             if not proof.stuck:
-                return BoundStatus.TIME_LIMIT, ""
+                out_of_boxes = self.boxes >= self.most_boxes
+                return BoundStatus.BOX_LIMIT if out_of_boxes else BoundStatus.TIME_LIMIT, ""
             if proof.search.impossible:
                 return BoundStatus.UNDECIDED, proof.search.impossible
             self.restarts += 1
@@ -158,9 +164,10 @@ class Alternation:
         slice_, looked, cost = 32, time.perf_counter(), _FIRST_LOOK
         while not (proof.proved or proof.stuck):
             before, clock = proof.boxes, time.perf_counter()
-            if clock >= self.deadline or self.interrupt.over:
+            left = self.most_boxes - self.boxes
+            if clock >= self.deadline or self.interrupt.over or left <= 0:
                 break
-            proof.run(slice_)
+            proof.run(int(min(slice_, left)))
             took = max(time.perf_counter() - clock, 1e-6)
             slice_ = int(min(max((proof.boxes - before) * _SLICE / took, 1.0), 2.0 * slice_))
             self.boxes += proof.boxes - before

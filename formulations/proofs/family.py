@@ -1,4 +1,4 @@
-"""The certified global lower bound of a spline family, and the registry of provers.
+"""The optimum and the certified lower bound of a spline family, and the registry of provers.
 
 Branch and bound proves that no durations of the family take L seconds or less, for L = upper / (1 +
 gap), where ``upper`` is the time of a verified motion. Every operation that carries the proof is rounded
@@ -17,6 +17,7 @@ from __future__ import annotations
 
 import time
 from collections.abc import Callable
+from contextlib import suppress
 from dataclasses import dataclass, field, replace
 from typing import Any
 
@@ -26,7 +27,13 @@ from formulations.deadlines import Deadline
 from formulations.deadlines.deadline import Stop
 from formulations.families import FAMILIES
 from formulations.motion.verdict import TOLERANCE
-from formulations.optima.family.optimum import FamilyOptimum, family_optimum
+from formulations.optima.family.exchange import Start
+from formulations.optima.family.optimum import (
+    FamilyOptimum,
+    best_of,
+    family_optimum,
+    local_optimum,
+)
 from formulations.problem.arrays import Array
 from formulations.problem.errors import InputError, NoFeasibleMotion
 from formulations.problem.problem import Problem
@@ -51,6 +58,9 @@ PROVERS: dict[str, Prover] = {
 # which there would be too many
 _EVERY_MOTION = "what is proved holds for every motion through the waypoints, not for B-splines alone"
 
+# the boxes of a short proof cost about as much as the many starts that it replaces
+_SHORT_PROOF, _SHORT_TIME = 10_000, 20.0  # boxes; s
+_BETTER = 1e-12  # relative; a smaller improvement is rounding
 _SMALLEST = 1e-150  # rad; squares and quotients of smaller displacements leave the range of floats
 
 
@@ -124,6 +134,7 @@ def family_bound(
     gap: float = 1e-7,
     time_limit: float = 60.0,
     stop: Stop | None = None,
+    most_boxes: int | None = None,
     optimum: FamilyOptimum | None = None,
     record: bool = False,
     progress: Callable[[float, int], None] | None = None,
@@ -145,8 +156,10 @@ def family_bound(
         is returned.
     stop : callable, optional
         Asked again and again whether to end now.
+    most_boxes : int, optional
+        The proof ends after so many boxes, too.
     optimum : FamilyOptimum, optional
-        Motion to start from; by default the NLP is solved.
+        Motion to start from; by default that of ``proved_optimum``.
     record : bool
         Whether to keep the certificate.
     progress : callable, optional
@@ -194,10 +207,14 @@ def family_bound(
         known = None if optimum is None else optimum.durations
         upper = np.inf if optimum is None else optimum.seconds
         return answer(simple, known, upper, BoundStatus.NOT_APPLICABLE, reason)
-    try:
-        found = (optimum or family_optimum(problem, stop=stop)).durations
-    except NoFeasibleMotion as failure:
-        return answer(simple, None, np.inf, BoundStatus.NOT_APPLICABLE, str(failure))
+    if optimum is None:
+        try:
+            optimum, proved = proved_optimum(problem, gap=gap, stop=stop, record=record)
+        except NoFeasibleMotion as failure:
+            return answer(simple, None, np.inf, BoundStatus.NOT_APPLICABLE, str(failure))
+        if proved is not None:
+            return replace(proved, runtime=time.perf_counter() - started)
+    found = optimum.durations
     if chosen.name not in PROVERS:
         motions = velocity_acceleration_bound(problem)
         events = motions.events(problem.moving_joints) if motions.seconds > simple else []
@@ -211,7 +228,14 @@ def family_bound(
         )
     prover = PROVERS[chosen.name]
     alternation = Alternation(
-        problem, prover, found, least=simple, record=record, stop=stop, progress=progress
+        problem,
+        prover,
+        found,
+        least=simple,
+        most_boxes=most_boxes,
+        record=record,
+        stop=stop,
+        progress=progress,
     )
     status, reason = alternation.run(gap, time_limit)
     proof, certificate = alternation.best, None
@@ -229,6 +253,76 @@ def family_bound(
         boxes=alternation.boxes,
         certificate=certificate,
     )
+
+
+def proved_optimum(
+    problem: Problem,
+    *,
+    gap: float = 1e-7,
+    starts: int | None = None,
+    seed: int = 0,
+    time_limit: float | None = None,
+    stop: Stop | None = None,
+    record: bool = False,
+) -> tuple[FamilyOptimum, FamilyBound | None]:
+    """Find the optimum of the problem's family from one start, where a short proof shows that it is one.
+
+    The proof finds better basins on its way. Where it does not end within ``_SHORT_PROOF`` boxes, or
+    the family has no prover, many starts take its place.
+
+    Parameters
+    ----------
+    problem : Problem
+        Waypoints and limits.
+    gap : float
+        Relative gap that the proof has to reach.
+    starts : int, optional
+        Number of starts, in place of one start and a proof.
+    seed : int
+        As in ``family_optimum``.
+    time_limit : float, optional [s]
+        For everything.
+    stop : callable, optional
+        Asked again and again whether to end now.
+    record : bool
+        Whether to keep the certificate.
+
+    Returns
+    -------
+    optimum : FamilyOptimum
+        The best motion found.
+    bound : FamilyBound or None
+        The bound, if the short proof reached the gap.
+
+    Raises
+    ------
+    UnsupportedProblem, NoFeasibleMotion, NotFoundInTime
+        As in ``family_optimum``.
+    """
+    deadline = Deadline(time_limit, stop)
+    known: list[Start] = []
+    if starts is None and problem.family in PROVERS and problem.moving_joints:
+        with suppress(NoFeasibleMotion):
+            one = family_optimum(problem, starts=1, seed=seed, time_limit=deadline.left, stop=stop)
+            bound = family_bound(
+                problem,
+                gap=gap,
+                time_limit=deadline.within(_SHORT_TIME).left,
+                stop=stop,
+                most_boxes=_SHORT_PROOF,
+                optimum=one,
+                record=record,
+            )
+            known.append(one.starts[0])
+            if bound.upper < one.seconds * (1.0 - _BETTER) and bound.durations is not None:
+                known.append(local_optimum(problem, bound.durations, deadline=deadline))
+            best = best_of(problem, known)
+            if bound.status is BoundStatus.PROVED and best.settled:
+                return best, bound
+            if deadline.over:
+                return best, None
+    many = family_optimum(problem, starts=starts, seed=seed, time_limit=deadline.left, stop=stop)
+    return best_of(problem, [*many.starts, *known[1:]]), None
 
 
 def _refusal(problem: Problem) -> str:

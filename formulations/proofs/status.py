@@ -11,6 +11,7 @@ class BoundStatus(StrEnum):
     PROVED = "proved"  # to the gap that was asked for
     TIGHT = "tight as it gets"  # of every motion: narrower boxes would prove no more
     TIME_LIMIT = "time limit"
+    BOX_LIMIT = "box limit"
     INTERRUPTED = "interrupted"  # somebody wanted it to end
     UNDECIDED = "undecided"  # of a family: the search cannot get closer
     SIMPLE = "simple bounds only"  # of every motion: the relaxation does not apply

@@ -3,6 +3,7 @@
 displacement   displacement at top speed, the simplest lower bound
 ruckig_        Ruckig: end to end (a lower bound), and with a stop at each waypoint (an upper bound)
 toppra_        TOPP-RA on a fixed path, without jerk limits
+toppra_library loads it without matplotlib
 copp_          COPP on a fixed path, with jerk limits
 reference      what a rung is and what its function returns
 """

@@ -12,7 +12,6 @@ import logging
 from typing import Any
 
 import numpy as np
-import toppra
 from scipy.interpolate import CubicSpline
 
 from formulations.motion.trajectory import Trajectory
@@ -20,6 +19,7 @@ from formulations.problem.arrays import Array
 from formulations.problem.problem import Problem
 from formulations.proofs.displacement import displacement_durations
 from formulations.references.reference import Outcome, Rung, RungKind, Takes
+from formulations.references.toppra_library import toppra
 
 _GRIDS = (100, 200, 400, 800, 1600)  # intervals per path piece, coarse to fine
 _GRID_ERROR = 2e-4  # refine until doubling the grid changes the duration by less

@@ -5,7 +5,6 @@ from __future__ import annotations
 import logging
 
 import numpy as np
-import toppra
 
 from formulations.motion.files.motion_points import MotionPoints
 from formulations.motion.trajectory import Trajectory
@@ -13,6 +12,7 @@ from formulations.motion.verdict import check
 from formulations.problem.arrays import Array
 from formulations.problem.problem import Limits, Problem
 from formulations.references.copp_ import Profile, profile_on
+from formulations.references.toppra_library import toppra
 from formulations.retiming.path import Path
 
 RATE = 1000.0  # points per second of a motion of TOPP-RA

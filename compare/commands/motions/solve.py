@@ -16,6 +16,7 @@ from compare.commands.options import (
     Rate,
     Rungs,
     Seed,
+    Starts,
     TimeLimit,
     Without,
     writable,
@@ -50,6 +51,7 @@ def solve(
     export: Export = None,
     rate: Rate = None,
     seed: Seed = 0,
+    starts: Starts = None,
 ) -> int:
     """Find every bound of one problem: what no motion can beat, and the best motions known.
 
@@ -85,6 +87,7 @@ def solve(
             certificate=bool(certificate or motion_certificate),
             gap=gap,
             rungs=chosen,
+            starts=starts,
             time_limit=time_limit,
             stop=stop,
             progress=stage,

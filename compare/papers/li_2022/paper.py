@@ -45,7 +45,7 @@ def certified(problem: Problem) -> dict[str, Any]:
     dict
         bound (certified) and optimum (best verified time) [s], durations [s].
     """
-    start = family_optimum(problem, random_starts=0)
+    start = family_optimum(problem, starts=6)
     found = family_bound(problem, gap=1e-4, time_limit=600.0, optimum=start)
     durations = None if found.durations is None else found.durations.tolist()
     return {"bound": found.seconds, "optimum": found.upper, "durations": durations}

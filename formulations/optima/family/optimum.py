@@ -1,4 +1,4 @@
-"""The optimum of a spline family: its exact nonlinear program, solved from many starts.
+"""The optimum of a spline family: its exact nonlinear program, solved from one start or many.
 
 ``starts`` chooses the starts and ``exchange`` solves each. A local solver proves nothing: the best of
 its solutions, once it has passed the independent check, is an upper bound.
@@ -6,9 +6,10 @@ its solutions, once it has passed the independent check, is an upper bound.
 
 from __future__ import annotations
 
-from collections.abc import Callable
+from collections.abc import Callable, Sequence
 from dataclasses import dataclass
 from functools import cached_property
+from itertools import islice
 
 import numpy as np
 
@@ -21,9 +22,10 @@ from formulations.optima.family.exchange import ConstraintExchange, Start, Start
 from formulations.optima.family.program import SHORTEST
 from formulations.optima.family.starts import starting_durations
 from formulations.problem.arrays import Array
-from formulations.problem.errors import NoFeasibleMotion, NotFoundInTime
+from formulations.problem.errors import InputError, NoFeasibleMotion, NotFoundInTime
 from formulations.problem.problem import Problem
 
+MANY_STARTS, _COSTLY_STARTS = 14, 6  # by default; the second for B-splines
 _AGREEING = 3  # starts that must agree before the rest of a B-spline's starts is left out
 
 
@@ -69,9 +71,22 @@ class FamilyOptimum:
         return any(start.status is StartStatus.STOPPED for start in self.starts)
 
     @property
+    def settled(self) -> bool:
+        """Whether the best start ended in a local optimum, rather than for another reason."""
+        best = min(self.starts, key=lambda start: start.seconds)
+        return best.status is StartStatus.OK
+
+    @property
     def agreeing_starts(self) -> int:
         """Number of starts that ended within 1e-7 of the best, relatively."""
         return sum(start.seconds <= self.seconds * (1.0 + 1e-7) for start in self.starts)
+
+    @property
+    def agreement(self) -> str:
+        """How many starts there were and how many ended at the optimum, in words."""
+        if len(self.starts) == 1:
+            return "one start"
+        return f"{self.agreeing_starts} of {len(self.starts)} starts agree"
 
     def __repr__(self) -> str:
         return f"FamilyOptimum({self.problem.name!r}: {self.seconds:.9g} s, family {self.family})"
@@ -81,7 +96,7 @@ def family_optimum(
     problem: Problem,
     *,
     family: str | None = None,
-    random_starts: int | None = None,
+    starts: int | None = None,
     seed: int = 0,
     time_limit: float | None = None,
     stop: Stop | None = None,
@@ -95,11 +110,11 @@ def family_optimum(
         Waypoints and limits.
     family : str, optional
         Name of the spline family; the problem's own by default.
-    random_starts : int, optional
-        Starts with random ratios of the durations, beside two plain starts and four from a random
-        sample. The default is 8, and none for B-splines.
+    starts : int, optional
+        Number of starts: the best of a random sample, two plain ones, at most three more from the
+        sample, then random ratios of the durations. The default is 14, and 6 for B-splines.
     seed : int
-        Seed of the random starts: the same seed gives the same answer.
+        Seed of the sample and of the random ratios: the same seed gives the same answer.
     time_limit : float, optional [s]
         No start is begun after this time, and the one at hand ends with its best durations so far.
     stop : callable, optional
@@ -116,12 +131,16 @@ def family_optimum(
     ------
     UnsupportedProblem
         If the family has no spline for this problem.
+    InputError
+        If the number of starts is not positive.
     NoFeasibleMotion
         If no start ends within the position limits (a stretch mends all other limits).
     NotFoundInTime
         If none has done so when the time is over.
     """
     deadline = Deadline(time_limit, stop)
+    if starts is not None and not starts >= 1:
+        raise InputError(f"starts: {starts!r} is not a positive number of starts")
     chosen = FAMILIES[family or problem.family]
     chosen.require(problem)
     if not problem.moving_joints:
@@ -129,33 +148,52 @@ def family_optimum(
         still = Start(durations, float(durations.sum()), StartStatus.STILL, 0)
         return FamilyOptimum(problem, chosen.name, durations, (still,))
     exchange = ConstraintExchange(problem, chosen, deadline)
-    starts: list[Start] = []
     # each knot pattern of a B-spline needs a program of its own, and distant starts have other patterns
     costly = bool(chosen.pattern(np.ones(problem.n_segments)))
-    if random_starts is None:
-        random_starts = 0 if costly else 8
-    guesses = starting_durations(problem, chosen, random_starts, seed)
-    for index, guess in enumerate(guesses):
-        starts.append(exchange.solve(guess))
+    count = starts or (_COSTLY_STARTS if costly else MANY_STARTS)
+    ended: list[Start] = []
+    for guess in islice(starting_durations(problem, chosen, seed), count):
+        ended.append(exchange.solve(guess))
         if progress is not None:
-            progress((index + 1) / len(guesses))
+            progress(len(ended) / count)
         if deadline.over:
             break
-        times = np.array([start.seconds for start in starts])
-        if costly and len(starts) == _AGREEING and np.ptp(times) <= 1e-7 * times.min():
+        times = np.array([start.seconds for start in ended])
+        if costly and len(ended) == _AGREEING and np.ptp(times) <= 1e-7 * times.min():
             break
-    best = min(starts, key=lambda start: start.seconds)
+    best = min(ended, key=lambda start: start.seconds)
     if not np.isfinite(best.seconds):
-        last = starts[-1]
+        last = ended[-1]
         if deadline.over:
             raise NotFoundInTime(
                 f"no {chosen.name} spline within the position limits was found in time"
             )
         raise NoFeasibleMotion(
-            f"none of {len(starts)} starts ended in a {chosen.name} spline that keeps the position "
+            f"none of {len(ended)} starts ended in a {chosen.name} spline that keeps the position "
             f"limits; last status: {last.status}{f' ({last.reason})' if last.reason else ''}"
         )
-    return FamilyOptimum(problem, chosen.name, best.durations, tuple(starts))
+    return best_of(problem, ended, family=chosen.name)
+
+
+def best_of(problem: Problem, starts: Sequence[Start], *, family: str | None = None) -> FamilyOptimum:
+    """Return the best of some starts.
+
+    Parameters
+    ----------
+    problem : Problem
+        Waypoints and limits.
+    starts : sequence of Start
+        How each ended; at least one.
+    family : str, optional
+        Name of the spline family; the problem's own by default.
+
+    Returns
+    -------
+    FamilyOptimum
+        Its durations are those of the shortest start.
+    """
+    best = min(starts, key=lambda start: start.seconds)
+    return FamilyOptimum(problem, family or problem.family, best.durations, tuple(starts))
 
 
 def local_optimum(
@@ -180,42 +218,3 @@ def local_optimum(
         The best durations found, and how the solver ended.
     """
     return ConstraintExchange(problem, FAMILIES[family or problem.family], deadline).solve(guess)
-
-
-def each_joint_alone(
-    problem: Problem,
-    *,
-    random_starts: int | None = None,
-    seed: int = 0,
-    time_limit: float | None = None,
-    stop: Stop | None = None,
-) -> tuple[FamilyOptimum | None, ...]:
-    """Find the optimum of every joint by itself, as the papers plan.
-
-    Parameters
-    ----------
-    problem : Problem
-        Waypoints and limits of all joints.
-    random_starts, seed : int
-        As in ``family_optimum``.
-    time_limit, stop : optional
-        As in ``family_optimum``, for all joints together.
-
-    Returns
-    -------
-    tuple of (FamilyOptimum or None), length dof
-        None for a joint that does not move.
-    """
-    deadline = Deadline(time_limit, stop)
-    return tuple(
-        family_optimum(
-            problem.joint(j),
-            random_starts=random_starts,
-            seed=seed,
-            time_limit=deadline.left,
-            stop=stop,
-        )
-        if j in problem.moving_joints
-        else None
-        for j in range(problem.dof)
-    )

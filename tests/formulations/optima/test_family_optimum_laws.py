@@ -74,7 +74,7 @@ def test_neither_an_offset_nor_a_sign_nor_the_direction_of_time_matters(
 @settings(max_examples=4, phases=NO_SHRINKING)
 def test_a_further_limit_or_joint_never_makes_it_faster(problem: Problem) -> None:
     whole = quick(problem).seconds
-    for alone in each_joint_alone(problem, random_starts=1):
+    for alone in each_joint_alone(problem, starts=4):
         assert alone is None or alone.seconds <= whole * (1.0 + 1e-9)
     freer = Problem.of(problem.waypoints, Limits.of(problem.limits.velocity, dof=problem.dof))
     assert quick(freer).seconds <= whole * (1.0 + 1e-9)
@@ -82,7 +82,7 @@ def test_a_further_limit_or_joint_never_makes_it_faster(problem: Problem) -> Non
 
 @pytest.mark.parametrize("case", ["sr4c", "bagging"])
 def test_the_same_seed_gives_the_same_answer_to_the_bit(case: str) -> None:
-    first, again = (family_optimum(load(case), random_starts=1, seed=5) for _ in range(2))
+    first, again = (family_optimum(load(case), starts=4, seed=5) for _ in range(2))
     np.testing.assert_array_equal(first.durations, again.durations)
     assert [s.seconds for s in first.starts] == [s.seconds for s in again.starts]
     assert optimum(case).seconds == pytest.approx(first.seconds, rel=1e-9)
@@ -90,7 +90,7 @@ def test_the_same_seed_gives_the_same_answer_to_the_bit(case: str) -> None:
 
 def test_progress_rises_to_one() -> None:
     seen: list[float] = []
-    family_optimum(load("cobot"), random_starts=2, progress=seen.append)
+    family_optimum(load("cobot"), starts=5, progress=seen.append)
     assert len(seen) >= 4
     assert seen == sorted(seen)
     assert seen[-1] == 1.0
@@ -188,5 +188,5 @@ def test_no_feasible_shape_is_said_to_be_none() -> None:
     t = np.exp(np.random.default_rng(0).uniform(-3.0, 3.0, (20_000, 3)))
     assert (FAMILIES["3-5-3"].position_excess(problem, t) > 0.0).all()
     with pytest.raises(NoFeasibleMotion) as caught:
-        family_optimum(problem, random_starts=0)
+        family_optimum(problem, starts=3)
     assert len(str(caught.value).splitlines()) == 1

@@ -60,9 +60,7 @@ def test_the_rule_breaks_the_limits_of_sr4c() -> None:
 @given(problem=MOVING)
 @settings(max_examples=4, phases=NO_SHRINKING)
 def test_the_rule_never_beats_the_optimum_of_made_up_problems(problem: Problem) -> None:
-    alone = [
-        found.durations for found in each_joint_alone(problem, random_starts=1) if found is not None
-    ]
+    alone = [found.durations for found in each_joint_alone(problem, starts=4) if found is not None]
     rule = longest_segment(problem, alone)
     assert rule.durations.sum() >= quick(problem).seconds * (1.0 - 1e-9)
     assert rule.position_excess == 0.0

@@ -119,7 +119,7 @@ def test_no_feasible_motion_is_lost_by_a_discard_or_a_cut(family: str) -> None:
         )
         if family == "4-3-4":
             problem = Problem.of(problem.waypoints, problem.limits, family=family)
-        base = family_optimum(problem, random_starts=1).durations
+        base = family_optimum(problem, starts=4).durations
         if i % 3 == 2:  # with position limits that this motion keeps
             T = base[None]
             widest = float(FAMILIES[family].position_excess(closed(problem), T)[0]) + 0.01
@@ -172,7 +172,7 @@ def test_no_feasible_quintic_is_lost_by_a_discard_or_a_cut() -> None:
         still = int(rng.integers(n)) if i % 4 == 3 else -1
         kind = ("V", "VA", "VAJ")[i % 3]
         problem = as_quintic(random_problem(rng, n, int(rng.integers(1, 4)), kind, -1.3, still))
-        base = family_optimum(problem, random_starts=0).durations
+        base = family_optimum(problem, starts=3).durations
         if i % 3 == 2:  # with position limits that this motion keeps
             excess = FAMILIES["quintic"].position_excess(closed(problem), base[None])[0]
             problem = closed(problem, float(excess) + 0.01)

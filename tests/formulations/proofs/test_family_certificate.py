@@ -52,7 +52,7 @@ def test_the_checker_proves_every_shipped_3_5_3_case_again(case: str, tmp_path: 
     problem = load(case)
     path = tmp_path / "certificate.json"
     for each in [problem, *(problem.joint(j) for j in problem.moving_joints)]:
-        bound = family_bound(each, optimum=family_optimum(each, random_starts=2), record=True)
+        bound = family_bound(each, optimum=family_optimum(each, starts=5), record=True)
         assert bound.certificate is not None
         write_certificate(path, bound.certificate)
         named = ["--problem", case] if each is problem else []
@@ -137,7 +137,7 @@ def test_every_row_of_a_sum_counts(z1_as_quintic: FamilyBound, tmp_path: Path) -
 
 def test_what_an_unfinished_chain_has_proved_can_be_checked(tmp_path: Path) -> None:
     problem = as_quintic(random_problem(np.random.default_rng(2), 4, 2, "VAJ", least=-1.0))
-    optimum = family_optimum(problem, random_starts=0)
+    optimum = family_optimum(problem, starts=3)
     L = optimum.seconds * 1.01  # more than can be proved
     proof = Proof(quintic.begin(problem, L, near=optimum.durations), L)
     reached = []

@@ -74,7 +74,7 @@ def test_one_joint_that_never_turns_takes_the_time_of_the_trapezoid(steps: list[
 def test_with_velocity_alone_the_time_is_the_integral_of_the_slowest_joint(case: str) -> None:
     """T = integral of max |q_j'| / V_j over the path parameter, by a fine midpoint rule."""
     problem = load(case)
-    path = family_optimum(problem, random_starts=0).trajectory
+    path = family_optimum(problem, starts=3).trajectory
     edges = np.linspace(0.0, path.seconds, 400_001)
     middles = 0.5 * (edges[1:] + edges[:-1])
     rate = (np.abs(path.at(middles, 1)) / problem.limits.velocity).max(axis=1)
@@ -162,7 +162,7 @@ def line_with_turns(path: Trajectory) -> Array:
 def test_a_one_joint_path_that_turns_must_stop_there_or_fail_visibly(points: list[float]) -> None:
     """Between waypoints, where no grid point need fall. Closed form: trapezoids between the turns."""
     problem = Problem.of(np.array(points)[:, None], Limits.of(1.0, 1.0, dof=1))
-    path = family_optimum(problem, random_starts=2).trajectory
+    path = family_optimum(problem, starts=5).trajectory
     ends = line_with_turns(path)
     assert len(ends) > 2
     least = sum(trapezoid(abs(d), 1.0, 1.0) for d in np.diff(ends))
@@ -177,7 +177,7 @@ def test_a_path_that_stands_still_for_a_while_is_a_visible_failure() -> None:
     """Nothing moves in the first third: no direction to start in."""
     points = np.array([[0.0, 0.0], [0.0, 0.0], [1.0, 2.0], [2.0, 1.0]])
     problem = Problem.of(points, Limits.of(1.0, 1.0, dof=2))
-    path = family_optimum(problem, random_starts=0).trajectory
+    path = family_optimum(problem, starts=3).trajectory
     with warnings.catch_warnings():
         warnings.simplefilter("error")
         outcome = toppra_on(problem, path)
