@@ -304,36 +304,35 @@ def _piece_excess(c: Any, degree: int, low: float, high: float, work: Any) -> fl
 
 
 @compiled
-def _hull_inside(c: Any, low: float, high: float) -> bool:
-    """Whether all Bernstein coefficients of p, of degree 5 at most, lie in an interval; then p does too."""
-    b1 = c[0] + 0.2 * c[1]
-    b2 = c[0] + 0.4 * c[1] + 0.1 * c[2]
-    b3 = c[0] + 0.6 * c[1] + 0.3 * c[2] + 0.1 * c[3]
-    b4 = c[0] + 0.8 * c[1] + 0.6 * c[2] + 0.4 * c[3] + 0.2 * c[4]
-    b5 = c[0] + c[1] + c[2] + c[3] + c[4] + c[5]
-    # false for NaN
-    inner = low <= b1 <= high and low <= b2 <= high and low <= b3 <= high and low <= b4 <= high
-    return inner and low <= c[0] <= high and low <= b5 <= high
+def _inside(b0: float, b1: float, b2: float, b3: float, low: float, high: float) -> bool:
+    """Whether four numbers lie in an interval; false for NaN."""
+    return low <= b0 <= high and low <= b1 <= high and low <= b2 <= high and low <= b3 <= high
 
 
 @compiled
-def stays_inside(coefficients: Any, degrees: Any, bounds: Any, slack: float, work: Any) -> bool:
-    """Tell whether one candidate leaves its position bounds by no more than the slack.
+def stays_inside(
+    i: int, coefficients: Any, degrees: Any, bounds: Any, slack: float, work: Any
+) -> bool:
+    """Tell whether candidate i leaves its position bounds by no more than the slack [rad].
 
     Most pieces are cleared by their Bernstein coefficients, which may use half of the slack: the other half
     is far more than rounding. The others are judged as in ``position_excess``.
-
-    coefficients (n_pieces, dof, WIDTH), bounds (dof, 2), slack [rad], work (7, WIDTH).
     """
-    n_segments, dof, _ = coefficients.shape
+    _, n_segments, dof, _ = coefficients.shape
     for j in range(dof):
-        low, high = bounds[j]
+        low, high = bounds[j, 0], bounds[j, 1]
         if low == -inf and high == inf:
             continue
+        least, most = low - 0.5 * slack, high + 0.5 * slack
         for k in range(n_segments):
-            c = coefficients[k, j]
-            if not _hull_inside(c, low - 0.5 * slack, high + 0.5 * slack) and (
-                _piece_excess(c, degrees[k], low, high, work) > slack
-            ):
+            c0, c1, c2 = coefficients[i, k, j, 0], coefficients[i, k, j, 1], coefficients[i, k, j, 2]
+            c3, c4, c5 = coefficients[i, k, j, 3], coefficients[i, k, j, 4], coefficients[i, k, j, 5]
+            b1, b2 = c0 + 0.2 * c1, c0 + 0.4 * c1 + 0.1 * c2
+            b3 = c0 + 0.6 * c1 + 0.3 * c2 + 0.1 * c3
+            b4 = c0 + 0.8 * c1 + 0.6 * c2 + 0.4 * c3 + 0.2 * c4
+            b5 = c0 + c1 + c2 + c3 + c4 + c5
+            if _inside(b1, b2, b3, b4, least, most) and _inside(c0, c0, b5, b5, least, most):
+                continue
+            if _piece_excess(coefficients[i, k, j], degrees[k], low, high, work) > slack:
                 return False
     return True

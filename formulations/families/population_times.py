@@ -116,6 +116,6 @@ def _judge(
             out[i] *= factor
         elif factor > 1.0:
             out[i] = inf
-        if len(bounds) > 0 and not stays_inside(coefficients[i], degrees, bounds, slack, work):
+        if len(bounds) > 0 and not stays_inside(i, coefficients, degrees, bounds, slack, work):
             out[i] = inf
     return True
