@@ -76,6 +76,8 @@ def fragrance(fitness: Array, c: float, a: float) -> Array:
     Array, shape (n,)
         Fragrances.
     """
+    if 0 < fitness[fitness.argmin()] and fitness[fitness.argmax()] < np.inf:  # no other: the usual case
+        return np.asarray(c * fitness**a)  # eq. 1
     finite = np.isfinite(fitness)
     stimulus = np.where(finite, fitness, -np.inf)
     largest = stimulus.max()
@@ -110,11 +112,12 @@ def fluttered(task: Task, x: Array, flock: Array, best: Array, fragrances: Array
         Positions after the move, not yet in the box.
     """
     m, n = len(x), len(flock)
-    share = task.rng.random((m, 1)) ** 2
-    local = task.rng.random((m, 1)) >= p
+    r, choice = task.rng.random((2, m, 1))
+    share = r**2
     j = task.rng.integers(n, size=m)
     k = (j + 1 + task.rng.integers(max(n - 1, 1), size=m)) % n  # another one
-    towards = np.where(local, share * flock[j] - flock[k], share * best - x)
+    other, another = flock.take(j, axis=0), flock.take(k, axis=0)
+    towards = np.where(choice < p, share * best - x, share * other - another)
     return np.asarray(x + towards * fragrances[:, None])  # eq. 2, 3
 
 

@@ -162,8 +162,9 @@ class Blend:
     def _butterflies(self, rows: Rows) -> Array:
         flock = self.flock
         best = flock.x[flock.fitness.argmin()]
-        smell = fragrance(flock.fitness, self._c, self._a)[rows]
-        moves = fluttered(self._task, flock.x[rows], flock.x, best, smell, self._p)
+        smell = fragrance(flock.fitness, self._c, self._a).take(rows)
+        x = flock.x.take(rows, axis=0)
+        moves = fluttered(self._task, x, flock.x, best, smell, self._p)
         return self._task.clip(moves)
 
 

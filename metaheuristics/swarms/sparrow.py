@@ -59,7 +59,7 @@ class Flock:
     def rank(self) -> None:
         """Sort, best first."""
         order = self.fitness.argsort(kind="stable")
-        self.x, self.fitness = self.x[order], self.fitness[order]
+        self.x, self.fitness = self.x.take(order, axis=0), self.fitness.take(order)
 
     def keep(self, rows: Rows, moved: Array, fitness: Array) -> None:
         """Take over the moves that are better.
@@ -73,7 +73,9 @@ class Flock:
         fitness : Array, shape (m,)
             Fitness there.
         """
-        better = fitness < self.fitness[rows]
+        better = fitness < self.fitness.take(rows)
+        if np.count_nonzero(better) == 0:
+            return
         taken = rows[better]
         self.x[taken], self.fitness[taken] = moved[better], fitness[better]
 
@@ -193,7 +195,7 @@ def _batch(task: Task, flock: Flock, rows: Rows, moves: Array, combine: Combine)
 
 def _produced(task: Task, flock: Flock, rows: Rows, generations: float, safety: float) -> Array:
     """Moves of producers; alpha and Q are one number per sparrow, R2 one per generation."""
-    x = flock.x[rows]
+    x = flock.x.take(rows, axis=0)
     if task.rng.random() < safety:
         alpha = 1 - task.rng.random((len(rows), 1))  # in (0, 1]
         shrunk = x * np.exp(-(rows[:, None] + 1) / (alpha * generations))  # eq. 3; Zhou 2025, eq. 8
@@ -204,7 +206,7 @@ def _produced(task: Task, flock: Flock, rows: Rows, generations: float, safety: 
 
 def _produced_printed(task: Task, flock: Flock, rows: Rows, t: float) -> Array:
     """Moves of producers as printed: t = generation / generations for i / iter_max, R the fitness."""
-    x, R = flock.x[rows], flock.fitness[rows, None]
+    x, R = flock.x.take(rows, axis=0), flock.fitness.take(rows)[:, None]
     alpha = 1 - task.rng.random((len(rows), 1))
     Q = task.rng.standard_normal((len(rows), 1))
     exponent = -t * np.where(np.isfinite(R), R, 0.0) / alpha
@@ -215,7 +217,7 @@ def _produced_printed(task: Task, flock: Flock, rows: Rows, t: float) -> Array:
 def _scrounged(task: Task, flock: Flock, rows: Rows, n_producers: int, *, printed: bool) -> Array:
     """Moves of scroungers around the best producer; Q is one number per sparrow."""
     n, dim = flock.x.shape
-    x = flock.x[rows]
+    x = flock.x.take(rows, axis=0)
     best = flock.x[flock.fitness[:n_producers].argmin()]
     worst = flock.x[flock.fitness.argmax()]
     rank = rows[:, None] + 1
@@ -233,7 +235,7 @@ def _scrounged(task: Task, flock: Flock, rows: Rows, n_producers: int, *, printe
 
 def _scouted(task: Task, flock: Flock, rows: Rows) -> Array:
     """Moves of scouts; K is one number per sparrow, beta one per coordinate."""
-    x, fitness = flock.x[rows], flock.fitness[rows, None]
+    x, fitness = flock.x.take(rows, axis=0), flock.fitness.take(rows)[:, None]
     best, worst = flock.fitness.argmin(), flock.fitness.argmax()
     beta = task.rng.standard_normal(x.shape)
     K = 2 * task.rng.random((len(rows), 1)) - 1
