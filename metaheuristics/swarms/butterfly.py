@@ -76,13 +76,12 @@ def fragrance(fitness: Array, c: float, a: float) -> Array:
     Array, shape (n,)
         Fragrances.
     """
-    if 0 < fitness[fitness.argmin()] and fitness[fitness.argmax()] < np.inf:  # no other: the usual case
-        return np.asarray(c * fitness**a)  # eq. 1
-    finite = np.isfinite(fitness)
-    stimulus = np.where(finite, fitness, -np.inf)
-    largest = stimulus.max()
-    stimulus = np.where(finite, fitness, largest if finite.any() else 1.0)
-    least = stimulus.min()
+    least, stimulus = fitness[fitness.argmin()], fitness
+    if least == np.inf:
+        return np.full(len(fitness), c)
+    if fitness[fitness.argmax()] == np.inf:
+        feasible = np.where(fitness < np.inf, fitness, -np.inf)
+        stimulus = np.minimum(fitness, feasible[feasible.argmax()])
     if least <= 0:
         stimulus = stimulus - least + 1
     return np.asarray(c * stimulus**a)  # eq. 1

@@ -240,8 +240,11 @@ def _scouted(task: Task, flock: Flock, rows: Rows) -> Array:
     beta = task.rng.standard_normal(x.shape)
     K = 2 * task.rng.random((len(rows), 1)) - 1
     to_best = flock.x[best] + beta * np.abs(x - flock.x[best])  # eq. 5; Zhou 2025, eq. 11
+    worse = fitness > flock.fitness[best]
+    if np.count_nonzero(worse) == len(rows):  # nobody needs the other move
+        return np.asarray(to_best)
     f_worst = flock.fitness[worst]
     gap = np.subtract(fitness, f_worst, out=np.zeros_like(fitness), where=fitness < f_worst) + EPSILON
     with np.errstate(over="ignore"):
         away = x + K * (np.abs(x - flock.x[worst]) / gap)  # eq. 5; Zhou 2025, eq. 11
-    return np.asarray(np.where(fitness > flock.fitness[best], to_best, away))
+    return np.where(worse, to_best, away)
