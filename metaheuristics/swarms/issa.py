@@ -123,49 +123,47 @@ class Blend:
         self.weight = weight(list(self._changes), self._threshold * abs(best))
         self._c = grown(self._c, self._generations)
 
-    def chosen(self, rows: Rows, moved: Array) -> Array:
+    def chosen(self, rows: Rows, moves: Array) -> Array:
         """Choose the sparrow move with probability ``weight``, else the butterfly move.
 
         Parameters
         ----------
         rows : Rows, shape (m,)
             The individuals that move.
-        moved : Array, shape (m, dim)
-            Their sparrow moves, in the box.
+        moves : Array, shape (m, dim)
+            Their sparrow moves.
 
         Returns
         -------
         Array, shape (m, dim)
-            What they do.
+            What they do, not yet in the box.
         """
         sparrows = self._task.rng.random((len(rows), 1)) < self.weight
-        return np.where(sparrows, moved, self._butterflies(rows))
+        return np.where(sparrows, moves, self._butterflies(rows))
 
-    def blended(self, rows: Rows, moved: Array) -> Array:
+    def blended(self, rows: Rows, moves: Array) -> Array:
         """Add both steps, weighted.
 
         Parameters
         ----------
         rows : Rows, shape (m,)
             The individuals that move.
-        moved : Array, shape (m, dim)
-            Their sparrow moves, in the box.
+        moves : Array, shape (m, dim)
+            Their sparrow moves.
 
         Returns
         -------
         Array, shape (m, dim)
-            What they do.
+            What they do, not yet in the box.
         """
         w = self.weight
-        return self._task.clip(w * moved + (1 - w) * self._butterflies(rows))  # Zhou 2025, eq. 15
+        sparrows, butterflies = self._task.clip(moves), self._task.clip(self._butterflies(rows))
+        return w * sparrows + (1 - w) * butterflies  # Zhou 2025, eq. 15
 
     def _butterflies(self, rows: Rows) -> Array:
         flock = self.flock
-        best = flock.x[flock.fitness.argmin()]
         smell = fragrance(flock.fitness, self._c, self._a).take(rows)
-        x = flock.x.take(rows, axis=0)
-        moves = fluttered(self._task, x, flock.x, best, smell, self._p)
-        return self._task.clip(moves)
+        return fluttered(self._task, flock.x, rows, int(flock.fitness.argmin()), smell, self._p)
 
 
 def weight(changes: list[float], threshold: float) -> float:

@@ -35,7 +35,7 @@ from metaheuristics.driver.task import Array, Moves, Task
 
 Rows: TypeAlias = NDArray[np.intp]
 Combine: TypeAlias = Callable[[Rows, Array], Array]
-"""(rows, sparrow moves (m, dim) in the box) -> what is done instead (m, dim)."""
+"""(rows, sparrow moves (m, dim)) -> what is done instead (m, dim); neither is in the box yet."""
 
 EPSILON = 1e-50
 """Keeps the divisor of Xue & Shen 2020, eq. 5, above zero."""
@@ -73,11 +73,10 @@ class Flock:
         fitness : Array, shape (m,)
             Fitness there.
         """
-        better = fitness < self.fitness.take(rows)
-        if np.count_nonzero(better) == 0:
-            return
-        taken = rows[better]
-        self.x[taken], self.fitness[taken] = moved[better], fitness[better]
+        better = (fitness < self.fitness.take(rows)).nonzero()[0]
+        if len(better):
+            taken = rows.take(better)
+            self.x[taken], self.fitness[taken] = moved.take(better, axis=0), fitness.take(better)
 
 
 def sparrow(
@@ -139,7 +138,7 @@ def forage(
     producers: float,
     scouts: float,
     safety: float | None,
-    combine: Combine = lambda rows, moved: moved,
+    combine: Combine = lambda rows, moves: moves,
     after: Callable[[], None] = lambda: None,
 ) -> Moves:
     """Move a flock until the budget is gone.
@@ -189,7 +188,7 @@ def forage(
 
 
 def _batch(task: Task, flock: Flock, rows: Rows, moves: Array, combine: Combine) -> Moves:
-    moved = combine(rows, task.clip(moves))
+    moved = task.clip(combine(rows, moves))
     flock.keep(rows, moved, (yield moved))
 
 
@@ -220,17 +219,19 @@ def _scrounged(task: Task, flock: Flock, rows: Rows, n_producers: int, *, printe
     x = flock.x.take(rows, axis=0)
     best = flock.x[flock.fitness[:n_producers].argmin()]
     worst = flock.x[flock.fitness.argmax()]
-    rank = rows[:, None] + 1
     Q = task.rng.standard_normal((len(rows), 1))
     with np.errstate(over="ignore"):
-        hungry = Q * np.exp((worst - x) / rank**2)  # eq. 4; Zhou 2025, eq. 10
+        hungry = Q * np.exp((worst - x) / (rows[:, None] + 1) ** 2)  # eq. 4; Zhou 2025, eq. 10
     if printed:
         near = best + np.abs(x - best) * task.rng.random(x.shape)  # Zhou 2025, eq. 10, printed
     else:
         A = 2.0 * task.rng.integers(2, size=x.shape) - 1
         # A+ = A^T (A A^T)^-1 = A^T / dim: one number for all coordinates
-        near = best + (np.abs(x - best) * A).sum(axis=1, keepdims=True) / dim  # eq. 4
-    return np.asarray(np.where(rank > n / 2, hungry, near))
+        steps = np.add.reduce(np.abs(x - best) * A, axis=1, keepdims=True) / dim
+        near = best + steps  # eq. 4
+    first = max(n // 2 - n_producers, 0)  # of the ranks above n / 2
+    near[first:] = hungry[first:]
+    return np.asarray(near)
 
 
 def _scouted(task: Task, flock: Flock, rows: Rows) -> Array:
