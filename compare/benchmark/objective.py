@@ -11,6 +11,7 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 from functools import cached_property
+from typing import Any
 
 import numpy as np
 
@@ -75,6 +76,9 @@ class Objective:
         Array, shape (n,) [s]
         """
         return self._times(durations)
+
+    def __reduce__(self) -> tuple[Any, ...]:
+        return Objective, (self.problem, self.stretch)  # without the buffers of a process
 
     @cached_property
     def _times(self) -> PopulationTimes:

@@ -1,8 +1,8 @@
-"""What a swarm costs beside its objective, and beside the same swarm in mealpy.
+"""How fast a swarm evaluates candidates, on one core and on two, and beside the same swarm in mealpy.
 
-These are the two studies behind ``timebound speed --swarms``. They measure time of the processor, not
-of the wall, so that other programs on the machine count less. Rivals take turns, and the best of
-several rounds counts.
+These are the two studies behind ``timebound speed --swarms``. Speed on one core is measured in time of the
+processor, not of the wall, so that other programs on the machine count less. Rivals take turns, and the best
+of several rounds counts.
 """
 
 from __future__ import annotations
@@ -10,19 +10,27 @@ from __future__ import annotations
 import importlib.util
 import time
 import warnings
-from collections.abc import Callable
+from concurrent.futures import ProcessPoolExecutor
+from contextlib import nullcontext
 from dataclasses import dataclass
 from typing import Any
 
 import numpy as np
 
 from compare.benchmark.objective import Objective, search_box
-from compare.screen import table
+from compare.benchmark.run import workers
+from compare.screen import bar, table
 from compare.studies.study import Study
 from formulations import Problem
-from metaheuristics import ALGORITHMS, minimise
+from metaheuristics import ALGORITHMS, Result, minimise
 
 POPULATION, STEPS, BUDGET = 50, 60, 5000
+RUNS = 3
+"""Runs of a swarm per round; the best one counts."""
+SLICE = 0.2
+"""Time that each worker works when workers are compared [s]."""
+GOALS = {"pso": 500_000, "papers": 200_000}
+"""Evaluations per second and core that are aimed at, for `pso` and for the swarms of the papers."""
 WORST = 1e18
 PAIRS = {  # ours: the same algorithm of mealpy
     "pso": "OriginalPSO",
@@ -36,15 +44,42 @@ PAIRS = {  # ours: the same algorithm of mealpy
 
 @dataclass(frozen=True)
 class SwarmCost:
-    """Time of a swarm's own work, a driver's checks included, and of its objective [s per 50 evaluations]."""
+    """Time of one evaluation, swarm and driver included, and who spends it.
+
+    Parameters
+    ----------
+    swarm, library : str
+        Name of the algorithm, and the library it comes from; empty if it is written out here.
+    seconds : float
+        Time of the processor per evaluation, on one core [s].
+    objective, algorithm, driver : float
+        Shares of the objective, of the swarm's own work, and of the driver that counts and checks; they
+        add up to 1.
+    two_workers : float or None
+        Evaluations per second of two processes over those of one, by the clock on the wall; None if it was
+        not measured.
+    """
 
     swarm: str
-    algorithm: float
+    library: str
+    seconds: float
     objective: float
+    algorithm: float
+    driver: float
+    two_workers: float | None
+
+    @property
+    def goal(self) -> int | None:
+        """Evaluations per second and core that are aimed at; None for the controls."""
+        if ALGORITHMS[self.swarm].group == "controls":
+            return None
+        return GOALS.get(self.swarm, GOALS["papers"])
 
 
-def costs(problem: Problem, rounds: int, names: list[str] | None = None) -> list[SwarmCost]:
-    """Measure each swarm's own work against its objective, in the stretched coding at population 50.
+def costs(
+    problem: Problem, rounds: int, names: list[str] | None = None, *, two: bool = True
+) -> list[SwarmCost]:
+    """Measure whole runs of each swarm in the stretched coding at population 50.
 
     Parameters
     ----------
@@ -54,6 +89,8 @@ def costs(problem: Problem, rounds: int, names: list[str] | None = None) -> list
         Rounds; the best one counts.
     names : list of str, optional
         Algorithms; all whose libraries are installed if left out.
+    two : bool
+        Also run each swarm in two processes at once.
 
     Returns
     -------
@@ -61,33 +98,58 @@ def costs(problem: Problem, rounds: int, names: list[str] | None = None) -> list
         A row per swarm.
     """
     objective = Objective(problem, stretch=True)
-    lo, hi = search_box(problem)
     names = names or [name for name, entry in ALGORITHMS.items() if _there(entry.libraries)]
-    best = dict.fromkeys(names, (np.inf, np.inf))
-    for seed in range(rounds):
-        for name in names:
-            entry = ALGORITHMS[name]
-            parameters = dict(entry.parameters)
-            if "population" in parameters:
-                parameters["population"] = POPULATION
-            inside = [0.0]
-            timed = _timed(objective, inside)
-            started = time.process_time()
-            minimise(entry.function, timed, lo, hi, budget=POPULATION * STEPS, seed=seed, **parameters)
-            whole = time.process_time() - started
-            found = ((whole - inside[0]) / STEPS, inside[0] / STEPS)
-            best[name] = min(best[name], found, key=lambda pair: pair[0])
-    return [SwarmCost(name, *pair) for name, pair in best.items()]
+    seconds, shares = dict.fromkeys(names, np.inf), dict.fromkeys(names, (np.inf, 0.0, 0.0))
+    rates = {name: {1: 0.0, 2: 0.0} for name in names}
+    with workers(2) if two else nullcontext() as pool, bar("swarms", rounds * len(names)) as advance:
+        if pool:
+            _rate(pool, 2, objective, names[0])  # loads the compiled code
+        for _ in range(rounds):
+            for name in names:
+                for seed in range(RUNS):
+                    cpu, wall = time.process_time(), time.perf_counter()
+                    found = _whole_run(objective, name, seed)
+                    cpu, wall = time.process_time() - cpu, time.perf_counter() - wall
+                    seconds[name] = min(seconds[name], cpu / found.evaluations)
+                    spent = (wall, found.seconds_objective, found.seconds_algorithm)
+                    shares[name] = min(shares[name], spent)
+                for jobs in (1, 2) if pool else ():
+                    rates[name][jobs] = max(rates[name][jobs], _rate(pool, jobs, objective, name))
+                advance()
+    return [
+        SwarmCost(name, ", ".join(ALGORITHMS[name].libraries), seconds[name], *_parts(*shares[name]),
+                  rates[name][2] / rates[name][1] if two else None)
+        for name in names
+    ]  # fmt: skip
 
 
-def _timed(f: Callable[[Any], Any], inside: list[float]) -> Callable[[Any], Any]:
-    def timed(x: Any) -> Any:
-        started = time.process_time()
-        value = f(x)
-        inside[0] += time.process_time() - started
-        return value
+def _whole_run(objective: Objective, name: str, seed: int) -> Result:
+    parameters = dict(ALGORITHMS[name].parameters)
+    if "population" in parameters:
+        parameters["population"] = POPULATION
+    lo, hi = search_box(objective.problem)
+    function, budget = ALGORITHMS[name].function, POPULATION * STEPS
+    return minimise(function, objective, lo, hi, budget=budget, seed=seed, **parameters)
 
-    return timed
+
+def _parts(wall: float, objective: float, algorithm: float) -> tuple[float, float, float]:
+    return objective / wall, algorithm / wall, 1.0 - (objective + algorithm) / wall
+
+
+def _rate(pool: ProcessPoolExecutor, jobs: int, objective: Objective, name: str) -> float:
+    """Evaluations per second of so many processes, which start at the same moment."""
+    start = time.time() + 0.02
+    waiting = [pool.submit(_slice, objective, name, start) for _ in range(jobs)]
+    return sum(future.result() for future in waiting)
+
+
+def _slice(objective: Objective, name: str, start: float) -> float:
+    """Run a swarm again and again for a while; evaluations per second."""
+    time.sleep(max(start - time.time(), 0.0))
+    evaluations, started = 0, time.perf_counter()
+    while (spent := time.perf_counter() - started) < SLICE:
+        evaluations += _whole_run(objective, name, evaluations).evaluations
+    return evaluations / spent
 
 
 @dataclass(frozen=True)
@@ -169,14 +231,14 @@ def _there(libraries: tuple[str, ...]) -> bool:
 
 
 def cost_text(rows: list[SwarmCost], summary: dict[str, Any]) -> str:
-    """Lay the costs out as a table.
+    """Lay the speeds out as a table.
 
     Parameters
     ----------
     rows : list of SwarmCost
         All swarms.
     summary : dict
-        Ratio of own work to objective, by swarm.
+        Evaluations per second and core, by swarm.
 
     Returns
     -------
@@ -184,13 +246,20 @@ def cost_text(rows: list[SwarmCost], summary: dict[str, Any]) -> str:
         A line per swarm.
     """
     lines = [
-        [c.swarm, f"{c.algorithm * 1e6:.0f}", f"{c.objective * 1e6:.0f}", f"{summary[c.swarm]:.2f}",
-         "yes" if summary[c.swarm] <= 2.0 else "NO"]
+        [c.swarm, c.library or "-", f"{summary[c.swarm]:,.0f}",
+         *(f"{100 * share:.0f}" for share in (c.objective, c.algorithm, c.driver)),
+         "-" if c.two_workers is None else f"{c.two_workers:.2f}",
+         "-" if c.goal is None else f"{c.goal:,}",
+         "-" if c.goal is None else "yes" if summary[c.swarm] >= c.goal else "NO"]
         for c in rows
     ]  # fmt: skip
-    title = f"a step of {POPULATION} evaluations in the stretched coding, time of the processor"
-    header = ["swarm", "own work [us]", "objective [us]", "ratio", "at most twice"]
-    return f"{title}\n{table(header, lines, right=(1, 2, 3))}\n"
+    title = (
+        f"whole runs of {POPULATION * STEPS} evaluations in the stretched coding, population {POPULATION},"
+        " swarm and driver included"
+    )
+    header = ["swarm", "library", "evaluations/s", "objective %", "swarm %", "driver %", "two workers",
+              "goal", "reached"]  # fmt: skip
+    return f"{title}\n{table(header, lines, right=(2, 3, 4, 5, 6, 7))}\n"
 
 
 def pair_text(rows: list[SwarmPair], summary: dict[str, Any]) -> str:
@@ -226,7 +295,7 @@ COSTS = Study(
     name="speed_swarms",
     row=SwarmCost,
     compute=costs,
-    summarise=lambda rows: {c.swarm: c.algorithm / c.objective for c in rows},
+    summarise=lambda rows: {c.swarm: 1.0 / c.seconds for c in rows},
     text=cost_text,
 )
 PAIRED = Study(

@@ -240,7 +240,10 @@ def least_factor(
             # written so that NaN counts as larger
             if allowed_j < inf and not _jerk_peak(c3, c4, c5) <= needed * needed * needed * allowed_j:
                 needed = np.cbrt(_jerk_peak(c3, c4, c5) / allowed_j)
-            if allowed_a < inf and not _acceleration_hull(c2, c3, c4, c5) <= needed * needed * allowed_a:
+            if (
+                allowed_a < inf
+                and not _acceleration_hull(c2, c3, c4, c5) <= needed * needed * allowed_a
+            ):
                 peak = _acceleration_peak(c2, c3, c4, c5)
                 if not peak <= needed * needed * allowed_a:
                     needed = sqrt(peak / allowed_a)
@@ -310,17 +313,16 @@ def _inside(b0: float, b1: float, b2: float, b3: float, low: float, high: float)
 
 
 @compiled
-def stays_inside(
-    i: int, coefficients: Any, degrees: Any, bounds: Any, slack: float, work: Any
-) -> bool:
-    """Tell whether candidate i leaves its position bounds by no more than the slack [rad].
+def stays_inside(i: int, coefficients: Any, degrees: Any, bounds: Any, work: Any) -> bool:
+    """Tell whether candidate i leaves its position bounds by no more than the slack.
 
-    Most pieces are cleared by their Bernstein coefficients, which may use half of the slack: the other half
-    is far more than rounding. The others are judged as in ``position_excess``.
+    ``bounds`` (dof, 3) holds the least and the greatest position of each joint and the slack [rad]. Most
+    pieces are cleared by their Bernstein coefficients, which may use half of the slack: the other half is
+    far more than rounding. The others are judged as in ``position_excess``.
     """
     _, n_segments, dof, _ = coefficients.shape
     for j in range(dof):
-        low, high = bounds[j, 0], bounds[j, 1]
+        low, high, slack = bounds[j, 0], bounds[j, 1], bounds[j, 2]
         if low == -inf and high == inf:
             continue
         least, most = low - 0.5 * slack, high + 0.5 * slack

@@ -49,9 +49,11 @@ class PopulationTimes:
         family.require(problem)
         self._family, self._problem = family, problem
         degrees = family.degrees_of(problem)
-        # the bounds and their slack as one array: a compiled call takes time for each argument
-        bounds = problem.position_bounds if problem.limits.has_position else np.empty((0, 2))
-        self._judged_by = degrees, problem.limits.derivatives, bounds, problem.position_slack, stretched
+        bounds = np.empty((0, 3))
+        if problem.limits.has_position:
+            slack = np.full(problem.dof, problem.position_slack)
+            bounds = np.column_stack([problem.position_bounds, slack])
+        self._judged_by = degrees, problem.limits.derivatives, bounds, stretched
         self._lengths = np.zeros((BLOCK, len(degrees)))
         self._coefficients = np.zeros((BLOCK, len(degrees), problem.dof, WIDTH))
 
@@ -76,7 +78,7 @@ class PopulationTimes:
         durations = np.ascontiguousarray(durations, dtype=np.float64)
         if durations.ndim != 2 or durations.shape[1] != self._problem.n_segments or not len(durations):
             return self._family.stretch(self._problem, durations)  # refuses wrong shapes
-        out: Array = np.add.reduce(durations, axis=1)
+        out = np.empty(len(durations))
         for start in range(0, len(out), BLOCK):
             rows = durations[start : start + BLOCK]
             lengths, coefficients = self._lengths[: len(rows)], self._coefficients[: len(rows)]
@@ -95,27 +97,28 @@ def _judge(
     degrees: Any,
     limits: Any,
     bounds: Any,
-    slack: float,
     stretched: bool,
     out: Any,
 ) -> bool:
-    """Turn the sums of durations in ``out`` into times; False if a duration is not positive and finite.
+    """Fill ``out`` with the times; return False if a duration is not positive and finite.
 
-    ``bounds`` has no rows if there are no position limits. The other arrays are those of
-    ``polynomial.stretch`` and ``polynomial.position_excess``.
+    ``bounds`` is that of ``polynomial.stays_inside``, without rows if there are no position limits. The
+    other arrays are those of ``polynomial.stretch``.
     """
-    for i in range(durations.shape[0]):
-        for k in range(durations.shape[1]):
-            if not 0.0 < durations[i, k] < inf:
-                return False
     work = np.zeros((7, WIDTH))
     worst = 0
     for i in range(len(out)):
+        total = 0.0
+        for k in range(durations.shape[1]):
+            if not 0.0 < durations[i, k] < inf:
+                return False
+            total += durations[i, k]
         factor, worst = least_factor(i, coefficients, degrees, lengths, limits, worst, work)
         if stretched:
-            out[i] *= factor
+            total *= factor
         elif factor > 1.0:
-            out[i] = inf
-        if len(bounds) > 0 and not stays_inside(i, coefficients, degrees, bounds, slack, work):
-            out[i] = inf
+            total = inf
+        if len(bounds) > 0 and not stays_inside(i, coefficients, degrees, bounds, work):
+            total = inf
+        out[i] = total
     return True

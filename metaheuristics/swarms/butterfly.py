@@ -120,10 +120,11 @@ def fluttered(task: Task, x: Array, rows: Rows, best: int, fragrances: Array, p:
     r, choice = task.rng.random((2, m))
     j = task.rng.integers(n, size=m)
     k = j + task.rng.integers(1, max(n, 2), size=m)  # another one, counted round the end
-    is_global = choice < p
     # r^2 g - x_i towards the best, r^2 x_j - x_k between two others
-    ahead = x.take(np.where(is_global, best, j), axis=0)
-    behind = x.take(np.where(is_global, rows, k), axis=0, mode="wrap")
+    towards_best = choice < p
+    np.copyto(j, best, where=towards_best)
+    np.copyto(k, rows, where=towards_best)
+    ahead, behind = x.take(j, axis=0), x.take(k, axis=0, mode="wrap")
     steps = (r**2)[:, None] * ahead - behind
     return np.asarray(x.take(rows, axis=0) + steps * fragrances[:, None])  # eq. 2, 3
 

@@ -115,7 +115,8 @@ class Blend:
 
     def weigh(self) -> None:
         """Renew the weight after a generation; the first call, after the start, keeps 0.5."""
-        before, best = self._best, float(self.flock.fitness.min())
+        fitness = self.flock.fitness
+        before, best = self._best, float(fitness[fitness.argmin()])
         self._best = best
         if before is None:
             return
@@ -139,7 +140,9 @@ class Blend:
             What they do, not yet in the box.
         """
         sparrows = self._task.rng.random((len(rows), 1)) < self.weight
-        return np.where(sparrows, moves, self._butterflies(rows))
+        chosen = self._butterflies(rows)
+        np.copyto(chosen, moves, where=sparrows)
+        return chosen
 
     def blended(self, rows: Rows, moves: Array) -> Array:
         """Add both steps, weighted.

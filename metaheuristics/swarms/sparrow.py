@@ -180,7 +180,7 @@ def forage(
         yield from _batch(task, flock, every[:n_producers], moves, combine)
         if n > n_producers:
             rows = every[n_producers:]
-            moves = _scrounged(task, flock, rows, n_producers, printed=safety is None)
+            moves = _scrounged(task, flock, n_producers, printed=safety is None)
             yield from _batch(task, flock, rows, moves, combine)
         rows = task.rng.permutation(n)[:n_scouts]
         yield from _batch(task, flock, rows, _scouted(task, flock, rows), combine)
@@ -213,15 +213,16 @@ def _produced_printed(task: Task, flock: Flock, rows: Rows, t: float) -> Array:
     return np.where(np.median(flock.fitness) > R, shrunk, x + Q)  # Zhou 2025, eq. 9
 
 
-def _scrounged(task: Task, flock: Flock, rows: Rows, n_producers: int, *, printed: bool) -> Array:
-    """Moves of scroungers around the best producer; Q is one number per sparrow."""
+def _scrounged(task: Task, flock: Flock, n_producers: int, *, printed: bool) -> Array:
+    """Moves of scroungers, who follow the producers, around the best of these; Q: one per sparrow."""
     n, dim = flock.x.shape
-    x = flock.x.take(rows, axis=0)
+    x = flock.x[n_producers:]
+    rank = np.arange(n_producers + 1.0, n + 1.0)[:, None]
     best = flock.x[flock.fitness[:n_producers].argmin()]
     worst = flock.x[flock.fitness.argmax()]
-    Q = task.rng.standard_normal((len(rows), 1))
+    Q = task.rng.standard_normal((len(x), 1))
     with np.errstate(over="ignore"):
-        hungry = Q * np.exp((worst - x) / (rows[:, None] + 1) ** 2)  # eq. 4; Zhou 2025, eq. 10
+        hungry = Q * np.exp((worst - x) / rank**2)  # eq. 4; Zhou 2025, eq. 10
     if printed:
         near = best + np.abs(x - best) * task.rng.random(x.shape)  # Zhou 2025, eq. 10, printed
     else:

@@ -1,4 +1,4 @@
-"""``timebound speed``: candidate checks per second, and what a swarm costs beside its objective."""
+"""``timebound speed``: candidate checks per second, and evaluations per second of whole swarms."""
 
 from __future__ import annotations
 
@@ -29,7 +29,8 @@ def speed(
     case
         A problem file or a shipped case; of the family 3-5-3, unless --swarms is given.
     swarms
-        Show instead what each swarm costs beside its objective, and beside the same swarm in mealpy.
+        Show instead the evaluations per second of each swarm with its driver, on one core and in two
+        processes, who spends the time, and the same swarms in mealpy.
     rounds
         Rounds; the best one counts.
     """
