@@ -249,4 +249,4 @@ def _scouted(task: Task, flock: Flock, rows: Rows) -> Array:
     gap = np.subtract(fitness, f_worst, out=np.zeros_like(fitness), where=fitness < f_worst) + EPSILON
     with np.errstate(over="ignore"):
         away = x + K * (np.abs(x - flock.x[worst]) / gap)  # eq. 5; Zhou 2025, eq. 11
-    return np.where(worse, to_best, away)
+    return np.asarray(np.where(worse, to_best, away))

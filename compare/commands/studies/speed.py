@@ -11,7 +11,8 @@ from compare.commands.options import Json, positive
 from compare.commands.studies import alone
 from compare.screen import show
 from compare.studies import speed as checks
-from compare.studies.speed_swarms import COSTS, PAIRED
+from compare.studies.speed_mealpy import PAIRED
+from compare.studies.speed_swarms import COSTS
 from formulations import InputError, load
 
 
