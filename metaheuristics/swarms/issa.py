@@ -27,7 +27,7 @@ import numpy as np
 
 from metaheuristics.driver.task import Array, Moves, Task
 from metaheuristics.swarms.butterfly import fluttered, fragrance, grown
-from metaheuristics.swarms.sparrow import Flock, Rows, forage
+from metaheuristics.swarms.sparrow import Drawn, Flock, Rows, forage
 
 
 def issa(
@@ -124,15 +124,15 @@ class Blend:
         self.weight = weight(list(self._changes), self._threshold * abs(best))
         self._c = grown(self._c, self._generations)
 
-    def chosen(self, rows: Rows, moves: Array) -> Array:
+    def chosen(self, rows: Rows, moves: Drawn) -> Array:
         """Choose the sparrow move with probability ``weight``, else the butterfly move.
 
         Parameters
         ----------
         rows : Rows, shape (m,)
             The individuals that move.
-        moves : Array, shape (m, dim)
-            Their sparrow moves.
+        moves : Drawn
+            Their sparrow moves, (m, dim).
 
         Returns
         -------
@@ -141,18 +141,19 @@ class Blend:
         """
         sparrows = self._task.rng.random((len(rows), 1)) < self.weight
         chosen = self._butterflies(rows)
-        np.copyto(chosen, moves, where=sparrows)
+        if np.count_nonzero(sparrows):
+            np.copyto(chosen, moves(), where=sparrows)
         return chosen
 
-    def blended(self, rows: Rows, moves: Array) -> Array:
+    def blended(self, rows: Rows, moves: Drawn) -> Array:
         """Add both steps, weighted.
 
         Parameters
         ----------
         rows : Rows, shape (m,)
             The individuals that move.
-        moves : Array, shape (m, dim)
-            Their sparrow moves.
+        moves : Drawn
+            Their sparrow moves, (m, dim).
 
         Returns
         -------
@@ -160,7 +161,7 @@ class Blend:
             What they do, not yet in the box.
         """
         w = self.weight
-        sparrows, butterflies = self._task.clip(moves), self._task.clip(self._butterflies(rows))
+        sparrows, butterflies = self._task.clip(moves()), self._task.clip(self._butterflies(rows))
         return w * sparrows + (1 - w) * butterflies  # Zhou 2025, eq. 15
 
     def _butterflies(self, rows: Rows) -> Array:
