@@ -10,7 +10,7 @@ from typing import Any
 import numpy as np
 
 from formulations.compiled import Late
-from formulations.families import polynomial
+from formulations.families import polynomial, position
 from formulations.families.polynomial import WIDTH
 from formulations.motion.trajectory import Trajectory
 from formulations.problem.arrays import Array
@@ -232,7 +232,7 @@ class Family:
         degrees, bounds = self.degrees_of(problem), problem.position_bounds
         for rows, _, coefficients in self._blocks(problem, durations):
             if problem.limits.has_position:
-                polynomial.position_excess(coefficients, degrees, bounds, out[rows])
+                position.position_excess(coefficients, degrees, bounds, out[rows])
         return out
 
     def trajectory(self, problem: Problem, durations: Any) -> Trajectory:

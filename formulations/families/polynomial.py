@@ -18,7 +18,23 @@ WIDTH = 6  # coefficients per piece: degree 5 at most
 
 
 @compiled
-def _value(q: Any, degree: int, s: float) -> float:
+def value(q: Any, degree: int, s: float) -> float:
+    """Evaluate a polynomial.
+
+    Parameters
+    ----------
+    q : array
+        Coefficients, ascending.
+    degree : int
+        Degree of q.
+    s : float
+        Where.
+
+    Returns
+    -------
+    float
+        q(s).
+    """
     y = q[degree]
     for i in range(degree - 1, -1, -1):
         y = y * s + q[i]
@@ -26,7 +42,18 @@ def _value(q: Any, degree: int, s: float) -> float:
 
 
 @compiled
-def _derivative(q: Any, degree: int, out: Any) -> None:
+def derivative(q: Any, degree: int, out: Any) -> None:
+    """Differentiate a polynomial.
+
+    Parameters
+    ----------
+    q : array
+        Coefficients, ascending.
+    degree : int
+        Degree of q.
+    out : array
+        Is filled with the coefficients of the derivative.
+    """
     for i in range(degree):
         out[i] = (i + 1) * q[i + 1]
 
@@ -52,20 +79,58 @@ def _roots(q0: float, q1: float, q2: float) -> tuple[int, float, float]:
 
 
 @compiled
-def _closed_form_roots(q: Any, degree: int, roots: Any) -> int:
-    """Find the roots in (0, 1) of a polynomial of degree 0, 1 or 2, ascending."""
-    count, roots[0], roots[1] = _roots(q[0], q[1] if degree > 0 else 0.0, q[2] if degree > 1 else 0.0)
+def closed_form_roots(q: Any, degree: int, roots: Any) -> int:
+    """Find the roots in (0, 1) of a polynomial of degree 0, 1 or 2, ascending.
+
+    Parameters
+    ----------
+    q : array
+        Coefficients, ascending.
+    degree : int
+        Degree of q.
+    roots : array
+        Is filled with the roots.
+
+    Returns
+    -------
+    int
+        Number of roots.
+    """
+    count, first, second = _roots(q[0], q[1] if degree > 0 else 0.0, q[2] if degree > 1 else 0.0)
+    if count > 0:
+        roots[0] = first
+    if count > 1:
+        roots[1] = second
     return count
 
 
 @compiled
-def _bracketed_roots(q: Any, degree: int, turns: Any, n_turns: int, roots: Any) -> int:
-    """Find the roots in (0, 1) of q, which is monotone between its turning points, by safeguarded Newton."""
+def bracketed_roots(q: Any, degree: int, turns: Any, n_turns: int, roots: Any) -> int:
+    """Find the roots in (0, 1) of q, which is monotone between its turning points, by safeguarded Newton.
+
+    Parameters
+    ----------
+    q : array
+        Coefficients, ascending.
+    degree : int
+        Degree of q.
+    turns : array
+        Turning points of q in (0, 1), ascending.
+    n_turns : int
+        Their number.
+    roots : array
+        Is filled with the roots.
+
+    Returns
+    -------
+    int
+        Number of roots.
+    """
     count = 0
     low, f_low = 0.0, q[0]
     for k in range(n_turns + 1):
         high = turns[k] if k < n_turns else 1.0
-        f_high = _value(q, degree, high)
+        f_high = value(q, degree, high)
         if f_high == 0.0 and high < 1.0:
             roots[count] = high
             count += 1
@@ -97,9 +162,9 @@ def _bracketed_roots(q: Any, degree: int, turns: Any, n_turns: int, roots: Any) 
 
 @compiled
 def _peak(q: Any, degree: int, turns: Any, n_turns: int) -> float:
-    peak = max(abs(q[0]), abs(_value(q, degree, 1.0)))
+    peak = max(abs(q[0]), abs(value(q, degree, 1.0)))
     for k in range(n_turns):
-        peak = max(peak, abs(_value(q, degree, turns[k])))
+        peak = max(peak, abs(value(q, degree, turns[k])))
     return peak
 
 
@@ -154,14 +219,14 @@ def _acceleration_peak(c2: float, c3: float, c4: float, c5: float) -> float:
 def _velocity_peak(c: Any, degree: int, work: Any) -> float:
     """Compute the exact peak on [0, 1] of the first derivative; it turns where the acceleration is zero."""
     velocity, acceleration, jerk, jerk_roots, roots = work[0], work[1], work[2], work[4], work[5]
-    _derivative(c, degree, velocity)
-    _derivative(velocity, degree - 1, acceleration)
+    derivative(c, degree, velocity)
+    derivative(velocity, degree - 1, acceleration)
     if degree < 5:
-        n_roots = _closed_form_roots(acceleration, degree - 2, roots)
+        n_roots = closed_form_roots(acceleration, degree - 2, roots)
     else:
-        _derivative(acceleration, 3, jerk)
-        n_jerk = _closed_form_roots(jerk, 2, jerk_roots)
-        n_roots = _bracketed_roots(acceleration, 3, jerk_roots, n_jerk, roots)
+        derivative(acceleration, 3, jerk)
+        n_jerk = closed_form_roots(jerk, 2, jerk_roots)
+        n_roots = bracketed_roots(acceleration, 3, jerk_roots, n_jerk, roots)
     return _peak(velocity, degree - 1, roots, n_roots)
 
 
@@ -220,10 +285,26 @@ def stretch(coefficients: Any, degrees: Any, durations: Any, limits: Any, out: A
 def least_factor(
     i: int, coefficients: Any, degrees: Any, durations: Any, limits: Any, first: int, work: Any
 ) -> tuple[float, int]:
-    """Compute the least factor of candidate i and the joint that decides; see ``stretch``.
+    """Compute the least factor of one candidate; see ``stretch``.
 
-    ``first`` is the joint to start with, ``work`` an array (7, WIDTH). Coefficients are read one by one: a
-    view of them costs as much as the proof that a peak may be skipped.
+    Coefficients are read one by one: a view of them costs as much as the proof that a peak may be skipped.
+
+    Parameters
+    ----------
+    i : int
+        The candidate.
+    coefficients, degrees, durations, limits : array
+        As in ``stretch``.
+    first : int
+        The joint to start with.
+    work : array, shape (7, WIDTH)
+        Scratch.
+
+    Returns
+    -------
+    factor : float
+    worst : int
+        The joint that decides.
     """
     _, n_segments, dof, _ = coefficients.shape
     factor, worst = 0.0, first
@@ -255,86 +336,3 @@ def least_factor(
                 factor, worst = needed, j
         j = j + 1 if j + 1 < dof else 0
     return factor, worst
-
-
-@compiled
-def position_excess(coefficients: Any, degrees: Any, bounds: Any, out: Any) -> None:
-    """Compute how far each candidate leaves its position bounds; no stretch changes it.
-
-    Parameters
-    ----------
-    coefficients, degrees : array
-        As in ``peaks``.
-    bounds : array, shape (dof, 2)
-        Least and greatest position of each joint [rad].
-    out : array, shape (n,)
-        Is filled with the largest excess [rad], 0 for a candidate that stays inside.
-    """
-    n, n_segments, dof, _ = coefficients.shape
-    work = np.zeros((7, WIDTH))
-    for i in range(n):
-        worst = 0.0
-        for j in range(dof):
-            low, high = bounds[j]
-            if low == -inf and high == inf:
-                continue
-            for k in range(n_segments):
-                worst = max(worst, _piece_excess(coefficients[i, k, j], degrees[k], low, high, work))
-        out[i] = worst
-
-
-@compiled
-def _piece_excess(c: Any, degree: int, low: float, high: float, work: Any) -> float:
-    """Compute how far a piece leaves an interval after its start, exactly; 0 if it stays inside."""
-    velocity, acceleration, jerk = work[0], work[1], work[2]
-    _derivative(c, degree, velocity)
-    _derivative(velocity, degree - 1, acceleration)
-    if degree == 3:
-        n_roots = _closed_form_roots(velocity, 2, work[5])
-    else:
-        if degree == 4:
-            n_turns = _closed_form_roots(acceleration, 2, work[4])
-        else:
-            _derivative(acceleration, 3, jerk)
-            n_jerk = _closed_form_roots(jerk, 2, work[3])
-            n_turns = _bracketed_roots(acceleration, 3, work[3], n_jerk, work[4])
-        n_roots = _bracketed_roots(velocity, degree - 1, work[4], n_turns, work[5])
-    worst = 0.0
-    for r in range(n_roots + 1):
-        x = _value(c, degree, work[5, r] if r < n_roots else 1.0)
-        worst = max(worst, low - x, x - high)
-    return worst
-
-
-@compiled
-def _inside(b0: float, b1: float, b2: float, b3: float, low: float, high: float) -> bool:
-    """Whether four numbers lie in an interval; false for NaN."""
-    return low <= b0 <= high and low <= b1 <= high and low <= b2 <= high and low <= b3 <= high
-
-
-@compiled
-def stays_inside(i: int, coefficients: Any, degrees: Any, bounds: Any, work: Any) -> bool:
-    """Tell whether candidate i leaves its position bounds by no more than the slack.
-
-    ``bounds`` (dof, 3) holds the least and the greatest position of each joint and the slack [rad]. Most
-    pieces are cleared by their Bernstein coefficients, which may use half of the slack: the other half is
-    far more than rounding. The others are judged as in ``position_excess``.
-    """
-    _, n_segments, dof, _ = coefficients.shape
-    for j in range(dof):
-        low, high, slack = bounds[j, 0], bounds[j, 1], bounds[j, 2]
-        if low == -inf and high == inf:
-            continue
-        least, most = low - 0.5 * slack, high + 0.5 * slack
-        for k in range(n_segments):
-            c0, c1, c2 = coefficients[i, k, j, 0], coefficients[i, k, j, 1], coefficients[i, k, j, 2]
-            c3, c4, c5 = coefficients[i, k, j, 3], coefficients[i, k, j, 4], coefficients[i, k, j, 5]
-            b1, b2 = c0 + 0.2 * c1, c0 + 0.4 * c1 + 0.1 * c2
-            b3 = c0 + 0.6 * c1 + 0.3 * c2 + 0.1 * c3
-            b4 = c0 + 0.8 * c1 + 0.6 * c2 + 0.4 * c3 + 0.2 * c4
-            b5 = c0 + c1 + c2 + c3 + c4 + c5
-            if _inside(b1, b2, b3, b4, least, most) and _inside(c0, c0, b5, b5, least, most):
-                continue
-            if _piece_excess(coefficients[i, k, j], degrees[k], low, high, work) > slack:
-                return False
-    return True

@@ -9,7 +9,8 @@ import numpy as np
 
 from formulations.compiled import compiled
 from formulations.families.family import BLOCK, Family
-from formulations.families.polynomial import WIDTH, least_factor, stays_inside
+from formulations.families.polynomial import WIDTH, least_factor
+from formulations.families.position import stays_inside
 from formulations.problem.arrays import Array
 from formulations.problem.problem import Problem
 
@@ -102,7 +103,7 @@ def _judge(
 ) -> bool:
     """Fill ``out`` with the times; return False if a duration is not positive and finite.
 
-    ``bounds`` is that of ``polynomial.stays_inside``, without rows if there are no position limits. The
+    ``bounds`` is that of ``position.stays_inside``, without rows if there are no position limits. The
     other arrays are those of ``polynomial.stretch``.
     """
     work = np.zeros((7, WIDTH))

@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from math import comb
+
 import numpy as np
 import pytest
 from conftest import Array
@@ -12,6 +14,7 @@ from spline_oracles import NAMES, at, derivative, pieces, some_problem
 from formulations import FAMILIES, InputError, Limits, Problem, load
 from formulations.families.family import BLOCK
 from formulations.families.population_times import PopulationTimes
+from formulations.families.position import stays_inside
 from formulations.problem.errors import UnsupportedProblem
 
 
@@ -60,6 +63,19 @@ def test_a_path_that_just_leaves_its_limit_is_told_from_one_that_just_stays_insi
         problem = Problem.of(x, Limits.of(1.0, 1.0, position=position, dof=1), family="3-5-3")
         found = PopulationTimes(FAMILIES["3-5-3"], problem, stretched=True)(t[None])
         assert np.isfinite(found).tolist() == [feasible]
+
+
+@pytest.mark.parametrize("i", range(1, 6))
+@pytest.mark.parametrize("sign", [-1.0, 1.0])
+def test_a_bump_of_one_bernstein_coefficient_is_seen(i: int, sign: float) -> None:
+    """p = C(5, i) s^i (1 - s)^(5 - i) has its peak at s = i / 5; no other coefficient shows it."""
+    c = np.zeros((1, 1, 1, 6))
+    for k in range(6 - i):
+        c[0, 0, 0, i + k] = sign * comb(5, i) * comb(5 - i, k) * (-1.0) ** k
+    peak = comb(5, i) * (i / 5) ** i * (1 - i / 5) ** (5 - i)
+    for limit, inside in ((peak + 1e-9, True), (peak - 1e-9, False)):
+        bounds = np.array([[-limit, limit, 1e-12]])
+        assert stays_inside(0, c, np.array([5]), bounds, np.zeros((7, 6))) is inside
 
 
 def test_misuse_is_refused_as_by_the_family() -> None:
