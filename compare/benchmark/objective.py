@@ -10,10 +10,13 @@ stretched   one vector of durations for all joints; every shape is first stretch
 from __future__ import annotations
 
 from dataclasses import dataclass
+from functools import cached_property
+from typing import Any
 
 import numpy as np
 
 from formulations import FAMILIES, Problem
+from formulations.families.population_times import PopulationTimes
 from formulations.problem.arrays import Array
 
 CODINGS: dict[str, str] = {
@@ -72,17 +75,14 @@ class Objective:
         -------
         Array, shape (n,) [s]
         """
-        family = FAMILIES[self.problem.family]
-        total = np.asarray(durations.sum(axis=1))
-        factor = family.stretch(self.problem, durations)
-        if self.stretch:
-            total *= factor
-        else:
-            total[factor > 1.0] = np.inf
-        if self.problem.limits.has_position:
-            excess = family.position_excess(self.problem, durations)
-            total[excess > self.problem.position_slack] = np.inf
-        return total
+        return self._times(durations)
+
+    def __reduce__(self) -> tuple[Any, ...]:
+        return Objective, (self.problem, self.stretch)  # without the buffers of a process
+
+    @cached_property
+    def _times(self) -> PopulationTimes:
+        return PopulationTimes(FAMILIES[self.problem.family], self.problem, stretched=self.stretch)
 
     def durations(self, x: Array) -> Array:
         """Return the durations that a swarm's vector stands for.

@@ -20,6 +20,7 @@ from compare.audit.paper import published_text
 from compare.benchmark.grade import Graded, Run, grade
 from compare.benchmark.known_times import KnownTime, table_of_known_times
 from compare.benchmark.ladders import LadderRecord, ladder_record
+from compare.benchmark.objective import Objective
 from compare.benchmark.records.provenance import machine, provenance_of, versions_text
 from compare.benchmark.records.rejudge import judged_again
 from compare.benchmark.records.rows import BoundProof, Row, RunKey
@@ -285,3 +286,4 @@ def warm_up(problems: dict[str, Problem]) -> None:
         ones = np.ones((2, problem.n_segments))  # a single candidate is not compiled
         family.stretch(problem, ones)
         family.position_excess(problem, ones)
+        Objective(problem, stretch=True)(ones)

@@ -1,50 +1,78 @@
-"""What a swarm costs beside its objective, and beside the same swarm in mealpy.
+"""How fast a swarm evaluates candidates, on one core and on two: the study behind ``timebound speed --swarms``.
 
-These are the two studies behind ``timebound speed --swarms``. They measure time of the processor, not
-of the wall, so that other programs on the machine count less. Rivals take turns, and the best of
-several rounds counts.
+Speed on one core is measured in time of the processor, not of the wall, so that other programs on the
+machine count less. Rivals take turns, and the best of several rounds counts.
 """
 
 from __future__ import annotations
 
-import importlib.util
 import time
-import warnings
 from collections.abc import Callable
+from concurrent.futures import ProcessPoolExecutor
+from contextlib import nullcontext
 from dataclasses import dataclass
 from typing import Any
 
 import numpy as np
 
 from compare.benchmark.objective import Objective, search_box
-from compare.screen import table
+from compare.benchmark.run import workers
+from compare.screen import bar, table
+from compare.studies.speed_mealpy import installed
 from compare.studies.study import Study
 from formulations import Problem
-from metaheuristics import ALGORITHMS, minimise
+from formulations.problem.arrays import Array
+from metaheuristics import ALGORITHMS, Result, Task, minimise
+from metaheuristics.driver.task import Moves, Search
 
-POPULATION, STEPS, BUDGET = 50, 60, 5000
-WORST = 1e18
-PAIRS = {  # ours: the same algorithm of mealpy
-    "pso": "OriginalPSO",
-    "pso-linear": "LDW_PSO",
-    "whale": "OriginalWOA",
-    "sparrow": "OriginalSSA",
-    "de": "OriginalDE",
-    "lshade": "L_SHADE",
-}
+POPULATION, STEPS = 50, 60
+RUNS = 3
+"""Runs of a swarm per round; the best one counts."""
+SLICE = 0.2
+"""Time that each worker works when workers are compared [s]."""
+GOALS = {"pso": 500_000, "papers": 200_000}
+"""Evaluations per second and core that are aimed at, for `pso` and for the swarms of the papers."""
 
 
 @dataclass(frozen=True)
 class SwarmCost:
-    """Time of a swarm's own work, a driver's checks included, and of its objective [s per 50 evaluations]."""
+    """Time of one evaluation, swarm and driver included, and who spends it.
+
+    Parameters
+    ----------
+    swarm, library : str
+        Name of the algorithm, and the library it comes from; empty if it is written out here.
+    seconds : float
+        Time of the processor per evaluation, on one core [s].
+    objective, algorithm, driver : float
+        Shares of the objective, of the swarm's own work, and of the driver that counts and checks; they
+        add up to 1.
+    two_workers, two_workers_wall : float or None
+        Evaluations per second of two processes over those of one, in time of the processor and by the clock
+        on the wall, which other programs slow down too; None if it was not measured.
+    """
 
     swarm: str
-    algorithm: float
+    library: str
+    seconds: float
     objective: float
+    algorithm: float
+    driver: float
+    two_workers: float | None
+    two_workers_wall: float | None
+
+    @property
+    def goal(self) -> int | None:
+        """Evaluations per second and core that are aimed at; None for the controls."""
+        if ALGORITHMS[self.swarm].group == "controls":
+            return None
+        return GOALS.get(self.swarm, GOALS["papers"])
 
 
-def costs(problem: Problem, rounds: int, names: list[str] | None = None) -> list[SwarmCost]:
-    """Measure each swarm's own work against its objective, in the stretched coding at population 50.
+def costs(
+    problem: Problem, rounds: int, names: list[str] | None = None, *, two: bool = True
+) -> list[SwarmCost]:
+    """Measure whole runs of each swarm in the stretched coding at population 50.
 
     Parameters
     ----------
@@ -54,6 +82,8 @@ def costs(problem: Problem, rounds: int, names: list[str] | None = None) -> list
         Rounds; the best one counts.
     names : list of str, optional
         Algorithms; all whose libraries are installed if left out.
+    two : bool
+        Also run each swarm in two processes at once.
 
     Returns
     -------
@@ -61,122 +91,107 @@ def costs(problem: Problem, rounds: int, names: list[str] | None = None) -> list
         A row per swarm.
     """
     objective = Objective(problem, stretch=True)
-    lo, hi = search_box(problem)
-    names = names or [name for name, entry in ALGORITHMS.items() if _there(entry.libraries)]
-    best = dict.fromkeys(names, (np.inf, np.inf))
-    for seed in range(rounds):
-        for name in names:
-            entry = ALGORITHMS[name]
-            parameters = dict(entry.parameters)
-            if "population" in parameters:
-                parameters["population"] = POPULATION
-            inside = [0.0]
-            timed = _timed(objective, inside)
-            started = time.process_time()
-            minimise(entry.function, timed, lo, hi, budget=POPULATION * STEPS, seed=seed, **parameters)
-            whole = time.process_time() - started
-            found = ((whole - inside[0]) / STEPS, inside[0] / STEPS)
-            best[name] = min(best[name], found, key=lambda pair: pair[0])
-    return [SwarmCost(name, *pair) for name, pair in best.items()]
+    names = names or [name for name, entry in ALGORITHMS.items() if installed(entry.libraries)]
+    seconds = dict.fromkeys(names, np.inf)
+    spent = dict.fromkeys(names, (np.inf, 0.0, 0.0))
+    rates = {name: {jobs: np.zeros(2) for jobs in (1, 2)} for name in names}
+    with workers(2) if two else nullcontext() as pool, bar("swarms", rounds * len(names)) as advance:
+        if pool:
+            _rates(pool, 2, objective, names[0])  # loads the compiled code
+        for _ in range(rounds):
+            for name in names:
+                for seed in range(RUNS):
+                    started = time.process_time()
+                    evaluations = _whole_run(objective, name, seed).evaluations
+                    took = (time.process_time() - started) / evaluations
+                    seconds[name] = min(seconds[name], took)
+                    spent[name] = min(spent[name], _spent(objective, name, seed))
+                for jobs in (1, 2):
+                    now = _rates(pool, jobs, objective, name) if pool else np.zeros(2)
+                    rates[name][jobs] = np.maximum(rates[name][jobs], now)
+                advance()
+    found = []
+    for name in names:
+        whole, inside, own = spent[name]
+        shares = inside / whole, own / whole, 1.0 - (inside + own) / whole
+        ratios = (rates[name][2] / rates[name][1]).tolist() if two else (None, None)
+        library = ", ".join(ALGORITHMS[name].libraries)
+        found.append(SwarmCost(name, library, seconds[name], *shares, *ratios))
+    return found
 
 
-def _timed(f: Callable[[Any], Any], inside: list[float]) -> Callable[[Any], Any]:
-    def timed(x: Any) -> Any:
+def _whole_run(objective: Objective, name: str, seed: int, spent: list[float] | None = None) -> Result:
+    """Run a swarm; into ``spent`` goes the time of the processor in the objective and in the swarm."""
+    entry = ALGORITHMS[name]
+    parameters = dict(entry.parameters)
+    if "population" in parameters:
+        parameters["population"] = POPULATION
+    f: Any = objective
+    search = entry.function
+    if spent is not None:
+        f, search = _timed(objective, spent, 0), _timed_moves(entry.function, spent, 1)
+    lo, hi = search_box(objective.problem)
+    return minimise(search, f, lo, hi, budget=POPULATION * STEPS, seed=seed, **parameters)
+
+
+def _spent(objective: Objective, name: str, seed: int) -> tuple[float, float, float]:
+    """Time of the processor that a run takes, and its part in the objective and in the swarm [s]."""
+    spent = [0.0, 0.0]
+    started = time.process_time()
+    _whole_run(objective, name, seed, spent)
+    return time.process_time() - started, spent[0], spent[1]
+
+
+def _timed(f: Callable[..., Any], spent: list[float], who: int) -> Callable[..., Any]:
+    def timed(*arguments: Any) -> Any:
         started = time.process_time()
-        value = f(x)
-        inside[0] += time.process_time() - started
-        return value
+        try:
+            return f(*arguments)
+        finally:
+            spent[who] += time.process_time() - started
 
     return timed
 
 
-@dataclass(frozen=True)
-class SwarmPair:
-    """The same swarm here and in mealpy, by its name there: time of a whole run [s]."""
+def _timed_moves(function: Search, spent: list[float], who: int) -> Search:
+    def timed(task: Task, **parameters: Any) -> Moves:
+        moves = _timed(lambda: function(task, **parameters), spent, who)()
+        send = _timed(moves.send, spent, who)
+        try:
+            x = _timed(next, spent, who)(moves)
+            while True:
+                x = send((yield x))
+        finally:
+            moves.close()
 
-    swarm: str
-    theirs: str
-    seconds: float
-    seconds_theirs: float
-
-
-def pairs(problem: Problem, rounds: int, budget: int = BUDGET) -> list[SwarmPair]:
-    """Time whole runs of each swarm here and in mealpy, on the same objective and budget.
-
-    Parameters
-    ----------
-    problem : Problem
-        The problem.
-    rounds : int
-        Rounds; the best one counts.
-    budget : int
-        Evaluations per run.
-
-    Returns
-    -------
-    list of SwarmPair
-        A row per pair; none if mealpy is not installed.
-    """
-    if not _there(("mealpy",)):
-        return []
-    import mealpy
-
-    objective = Objective(problem, stretch=True)
-    lo, hi = search_box(problem)
-    kinds = mealpy.get_all_optimizers(verbose=False)
-    found = []
-    for ours, theirs in PAIRS.items():
-        if not _there(ALGORITHMS[ours].libraries):
-            continue
-        entry, best = ALGORITHMS[ours], [np.inf, np.inf]
-        for seed in range(rounds):
-            started = time.process_time()
-            minimise(entry.function, objective, lo, hi, budget=budget, seed=seed, **entry.parameters)
-            middle = time.process_time()
-            _alone(mealpy, kinds[theirs], objective, lo, hi, budget, seed)
-            best = [
-                min(best[0], middle - started),
-                min(best[1], time.process_time() - middle),
-            ]
-        found.append(SwarmPair(ours, theirs, *best))
-    return found
+    return timed
 
 
-def _alone(
-    mealpy: Any, kind: Any, objective: Objective, lo: Any, hi: Any, budget: int, seed: int
-) -> None:
-    """A run as mealpy's users write it: no driver, no bridge, stopped by its own count."""
-
-    def one(x: Any) -> float:
-        if not np.isfinite(x).all():  # its L-SHADE asks for NaN when nothing has improved
-            return WORST
-        return float(objective(np.clip(x, lo, hi)[None])[0])
-
-    problem = {
-        "obj_func": one,
-        "bounds": mealpy.FloatVar(lb=lo.tolist(), ub=hi.tolist()),
-        "minmax": "min",
-        "log_to": None,
-    }
-    search = kind(epoch=budget // POPULATION, pop_size=POPULATION)
-    with warnings.catch_warnings():
-        warnings.simplefilter("ignore")  # of theirs
-        search.solve(problem, seed=seed, termination={"max_fe": budget})
+def _rates(pool: ProcessPoolExecutor, jobs: int, objective: Objective, name: str) -> Array:
+    """Evaluations per second of so many processes that start together: of the processor, by the clock."""
+    start = time.time() + 0.02
+    waiting = [pool.submit(_slice, objective, name, start) for _ in range(jobs)]
+    return np.asarray(np.sum([future.result() for future in waiting], axis=0))
 
 
-def _there(libraries: tuple[str, ...]) -> bool:
-    return all(importlib.util.find_spec(name) is not None for name in libraries)
+def _slice(objective: Objective, name: str, start: float) -> tuple[float, float]:
+    """Run a swarm again and again for a while."""
+    time.sleep(max(start - time.time(), 0.0))
+    evaluations, wall, cpu = 0, time.perf_counter(), time.process_time()
+    while time.perf_counter() - wall < SLICE:
+        evaluations += _whole_run(objective, name, seed=evaluations).evaluations
+    return evaluations / (time.process_time() - cpu), evaluations / (time.perf_counter() - wall)
 
 
 def cost_text(rows: list[SwarmCost], summary: dict[str, Any]) -> str:
-    """Lay the costs out as a table.
+    """Lay the speeds out as a table.
 
     Parameters
     ----------
     rows : list of SwarmCost
         All swarms.
     summary : dict
-        Ratio of own work to objective, by swarm.
+        Evaluations per second and core, by swarm.
 
     Returns
     -------
@@ -184,55 +199,26 @@ def cost_text(rows: list[SwarmCost], summary: dict[str, Any]) -> str:
         A line per swarm.
     """
     lines = [
-        [c.swarm, f"{c.algorithm * 1e6:.0f}", f"{c.objective * 1e6:.0f}", f"{summary[c.swarm]:.2f}",
-         "yes" if summary[c.swarm] <= 2.0 else "NO"]
+        [c.swarm, c.library or "-", f"{summary[c.swarm]:,.0f}",
+         *(f"{100 * share:.0f}" for share in (c.objective, c.algorithm, c.driver)),
+         *("-" if ratio is None else f"{ratio:.2f}" for ratio in (c.two_workers, c.two_workers_wall)),
+         "-" if c.goal is None else f"{c.goal:,}",
+         "-" if c.goal is None else "yes" if summary[c.swarm] >= c.goal else "NO"]
         for c in rows
     ]  # fmt: skip
-    title = f"a step of {POPULATION} evaluations in the stretched coding, time of the processor"
-    header = ["swarm", "own work [us]", "objective [us]", "ratio", "at most twice"]
-    return f"{title}\n{table(header, lines, right=(1, 2, 3))}\n"
-
-
-def pair_text(rows: list[SwarmPair], summary: dict[str, Any]) -> str:
-    """Lay the pairs out as a table.
-
-    Parameters
-    ----------
-    rows : list of SwarmPair
-        All pairs.
-    summary : dict
-        How many times faster, by swarm.
-
-    Returns
-    -------
-    str
-        A line per pair; one line if mealpy is not installed.
-    """
-    if not rows:
-        return "pairs with mealpy: it is not installed: pip install 'timebound[rivals]'"
-    lines = [
-        [p.swarm, p.theirs, f"{p.seconds * 1e3:.0f}", f"{p.seconds_theirs * 1e3:.0f}",
-         f"{summary[p.swarm]:.1f}", "yes" if summary[p.swarm] >= 10.0 else "NO"]
-        for p in rows
-    ]  # fmt: skip
     title = (
-        f"whole runs of {BUDGET} evaluations, in pairs; mealpy as its users run it, without this driver"
+        f"whole runs of {POPULATION * STEPS} evaluations in the stretched coding, population {POPULATION},"
+        " swarm and driver included"
     )
-    header = ["swarm", "in mealpy", "ours [ms]", "mealpy [ms]", "times faster", "ten times"]
-    return f"{title}\n{table(header, lines, right=(2, 3, 4))}"
+    header = ["swarm", "library", "evaluations/s", "objective %", "swarm %", "driver %", "two workers",
+              "by the clock", "goal", "reached"]  # fmt: skip
+    return f"{title}\n{table(header, lines, right=(2, 3, 4, 5, 6, 7, 8))}\n"
 
 
 COSTS = Study(
     name="speed_swarms",
     row=SwarmCost,
     compute=costs,
-    summarise=lambda rows: {c.swarm: c.algorithm / c.objective for c in rows},
+    summarise=lambda rows: {c.swarm: 1.0 / c.seconds for c in rows},
     text=cost_text,
-)
-PAIRED = Study(
-    name="speed_mealpy",
-    row=SwarmPair,
-    compute=pairs,
-    summarise=lambda rows: {p.swarm: p.seconds_theirs / p.seconds for p in rows},
-    text=pair_text,
 )

@@ -10,14 +10,14 @@ from typing import Any
 import numpy as np
 
 from formulations.compiled import Late
-from formulations.families import polynomial
+from formulations.families import polynomial, position
 from formulations.families.polynomial import WIDTH
 from formulations.motion.trajectory import Trajectory
 from formulations.problem.arrays import Array
 from formulations.problem.errors import InputError, UnsupportedProblem
 from formulations.problem.problem import Problem
 
-_BLOCK = 256  # candidates whose coefficients fit the processor's cache
+BLOCK = 256  # candidates whose coefficients fit the processor's cache
 
 
 @dataclass(frozen=True)
@@ -31,7 +31,8 @@ class Family:
     population : callable
         ``population(waypoints, durations, lengths, out)``, compiled: from waypoints (n + 1, dof) [rad] and
         durations (m, n) [s] it fills the lengths of the polynomial pieces (m, n_pieces) [s] and their
-        coefficients on normalised time, out (m, n_pieces, dof, 6) [rad], which is zero before.
+        coefficients on normalised time, out (m, n_pieces, dof, 6) [rad], which is zero before, or holds what
+        an earlier call filled.
     symbols : callable
         ``symbols(waypoints, t, near)``: runs the same lines on CasADi symbols t. ``near`` are numeric
         durations that have the pattern wanted. Returns the length of each piece, and the coefficients by
@@ -128,8 +129,8 @@ class Family:
     def _blocks(self, problem: Problem, durations: Array) -> Iterator[tuple[slice, Array, Array]]:
         if not len(durations):
             self.pieces(problem, durations)  # refuses wrong shapes
-        for start in range(0, len(durations), _BLOCK):
-            rows = slice(start, start + _BLOCK)
+        for start in range(0, len(durations), BLOCK):
+            rows = slice(start, start + BLOCK)
             yield rows, *self.pieces(problem, durations[rows])
 
     def coefficients(self, problem: Problem, durations: Array) -> Array:
@@ -231,7 +232,7 @@ class Family:
         degrees, bounds = self.degrees_of(problem), problem.position_bounds
         for rows, _, coefficients in self._blocks(problem, durations):
             if problem.limits.has_position:
-                polynomial.position_excess(coefficients, degrees, bounds, out[rows])
+                position.position_excess(coefficients, degrees, bounds, out[rows])
         return out
 
     def trajectory(self, problem: Problem, durations: Any) -> Trajectory:

@@ -76,9 +76,11 @@ class Archive:
         """
         first = int(fitness.argmin())
         if fitness[first] < self.fitness:
-            before = np.minimum.accumulate(np.concatenate(([self.fitness], fitness[:first])))
-            better = np.flatnonzero(fitness[: first + 1] < before)
-            self._trace += [(self.evaluations + int(i) + 1, float(fitness[i])) for i in better]
+            best = self.fitness
+            for count, value in enumerate(fitness[: first + 1].tolist(), self.evaluations + 1):
+                if value < best:
+                    best = value
+                    self._trace.append((count, best))
             self.x, self.fitness = x[first].copy(), float(fitness[first])
         self.evaluations += len(x)
 

@@ -10,7 +10,7 @@ from numpy.typing import ArrayLike
 
 from metaheuristics.driver.archive import Archive
 from metaheuristics.driver.reason import reason, shown
-from metaheuristics.driver.task import Array, Fault, ObjectiveError, Status, TaskError
+from metaheuristics.driver.task import Array, BoxRows, Fault, ObjectiveError, Status, TaskError
 
 ROUNDING = 1e-9
 """How far a claim may lie below what was evaluated, relative."""
@@ -138,20 +138,21 @@ def fitness(returned: ArrayLike, n: int) -> Array:
     values = np.array(returned, dtype=np.float64)
     if values.shape != (n,):
         raise ObjectiveError(f"f returned shape {values.shape} for {n} points")
-    np.copyto(values, np.inf, where=np.isnan(values))
-    if values[values.argmin()] == -np.inf:
-        raise ObjectiveError(f"f returned -inf for point {values.argmin()} of {n}")
+    if not values[values.argmin()] > -np.inf:  # argmin finds NaN first
+        np.copyto(values, np.inf, where=np.isnan(values))
+        if values[values.argmin()] == -np.inf:
+            raise ObjectiveError(f"f returned -inf for point {values.argmin()} of {n}")
     return values
 
 
-def population(yielded: object, lo: Array, hi: Array) -> Array:
+def population(yielded: object, box: BoxRows) -> Array:
     """Return the points that an algorithm asks for as the driver's own array.
 
     Parameters
     ----------
     yielded : object
         What the algorithm yielded: anything.
-    lo, hi : Array, shape (dim,)
+    box : BoxRows
         Ends of the box.
 
     Returns
@@ -171,14 +172,16 @@ def population(yielded: object, lo: Array, hi: Array) -> Array:
         x = np.array(array, dtype=np.float64)  # a copy first: what is checked is what is evaluated
     except BaseException as error:  # of foreign objects: whatever they raise
         raise Fault(Status.wrong_shape, f"not an array of floats: {reason(error)}") from None
-    if x.ndim != 2 or x.shape[0] == 0 or x.shape[1] != lo.size:
-        raise Fault(Status.wrong_shape, f"yielded shape {x.shape}, needs (n, {lo.size})")
-    inside = (x >= lo) & (x <= hi)
+    if x.ndim != 2 or x.shape[0] == 0 or x.shape[1] != box.dim:
+        raise Fault(Status.wrong_shape, f"yielded shape {x.shape}, needs (n, {box.dim})")
+    lo, hi = box.of(len(x))
+    inside = x >= lo
+    inside &= x <= hi
     if np.count_nonzero(inside) < x.size:
         finite = np.isfinite(x)
         status = Status.out_of_box if finite.all() else Status.not_finite
         i, d = np.argwhere(~inside if status is Status.out_of_box else ~finite)[0]
-        raise Fault(status, f"x[{i}, {d}] = {x[i, d]}, box [{lo[d]}, {hi[d]}]")
+        raise Fault(status, f"x[{i}, {d}] = {x[i, d]}, box [{lo[i, d]}, {hi[i, d]}]")
     return x
 
 

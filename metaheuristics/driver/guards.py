@@ -52,7 +52,8 @@ def _states() -> tuple[Any, Any]:
 
 
 def _equal(one: tuple[Any, Any], other: tuple[Any, Any]) -> bool:
-    numpys = all(np.array_equal(a, b) for a, b in zip(one[0], other[0], strict=True))
+    (_, words, *rest), (_, other_words, *other_rest) = one[0], other[0]
+    numpys = rest == other_rest and words.tobytes() == other_words.tobytes()
     return numpys and bool(one[1] == other[1])
 
 

@@ -22,6 +22,7 @@ from metaheuristics.driver.isolation import Apart
 from metaheuristics.driver.reason import fault_of
 from metaheuristics.driver.task import (
     Array,
+    BoxRows,
     BudgetSpent,
     Fault,
     Moves,
@@ -127,7 +128,7 @@ class _Run:
         self, archive: Archive, f: Objective, lo: Array, hi: Array, budget: int, interrupt: Interrupt
     ) -> None:
         self.archive, self.interrupt = archive, interrupt
-        self.f, self.lo, self.hi, self.budget = f, lo, hi, budget
+        self.f, self.box, self.budget = f, BoxRows(lo, hi), budget
         self.seconds_algorithm = self.seconds_objective = 0.0
 
     def judged(self, start: Callable[[], Moves]) -> tuple[Status, str]:
@@ -156,7 +157,7 @@ class _Run:
         while True:
             left = self.budget - self.archive.evaluations
             try:
-                x = checks.population(yielded, self.lo, self.hi)[:left]
+                x = checks.population(yielded, self.box)[:left]
             finally:
                 self.interrupt.check()
             started = perf_counter()

@@ -5,6 +5,7 @@ from __future__ import annotations
 from collections.abc import Callable, Generator
 from dataclasses import dataclass, field
 from enum import StrEnum
+from functools import cached_property
 from typing import Any, TypeAlias
 
 import numpy as np
@@ -122,6 +123,38 @@ class BudgetSpent(Exception):  # noqa: N818 (no error)
         self.fitness = fitness
 
 
+class BoxRows:
+    """The ends of a box, repeated for each row of a population: NumPy is slow on short broadcast rows.
+
+    Parameters
+    ----------
+    lo, hi : Array, shape (dim,)
+        Ends of the box.
+    """
+
+    def __init__(self, lo: Array, hi: Array) -> None:
+        self.dim = len(lo)
+        self._ends = lo, hi
+        self._lo, self._hi = lo[None], hi[None]
+
+    def of(self, n: int) -> tuple[Array, Array]:
+        """Return both ends for n rows.
+
+        Parameters
+        ----------
+        n : int
+            Number of rows.
+
+        Returns
+        -------
+        lo, hi : Array, shape (n, dim)
+            Views of arrays that are kept.
+        """
+        if len(self._lo) < n:
+            self._lo, self._hi = (np.array([end]).repeat(n, axis=0) for end in self._ends)
+        return self._lo[:n], self._hi[:n]
+
+
 @dataclass(frozen=True, eq=False)
 class Task:
     """What an algorithm may know: the box, the random numbers, and how much of the budget is used.
@@ -195,4 +228,11 @@ class Task:
         Array, shape (..., dim)
             Points of the box.
         """
-        return np.minimum(np.maximum(x, self.lo), self.hi)
+        x = np.asarray(x)
+        lo, hi = self._rows.of(len(x)) if x.ndim == 2 else (self.lo, self.hi)
+        clipped = np.maximum(x, lo)
+        return np.minimum(clipped, hi, out=clipped)
+
+    @cached_property
+    def _rows(self) -> BoxRows:
+        return BoxRows(self.lo, self.hi)

@@ -15,9 +15,14 @@ The moves scale x itself (r^2 x_j - x_k), so that the swarm is drawn towards x =
 
 from __future__ import annotations
 
+from typing import TypeAlias
+
 import numpy as np
+from numpy.typing import NDArray
 
 from metaheuristics.driver.task import Array, Moves, Task
+
+Rows: TypeAlias = NDArray[np.intp]
 
 
 def butterfly(
@@ -46,9 +51,10 @@ def butterfly(
     x = task.sample(population)
     fitness = (yield x).copy()
     generations = max(1.0, (task.budget - population) / population)
+    every = np.arange(population)
     while True:
-        best = x[fitness.argmin()]
-        moved = task.clip(fluttered(task, x, x, best, fragrance(fitness, c, a), p))
+        moves = fluttered(task, x, every, int(fitness.argmin()), fragrance(fitness, c, a), p)
+        moved = task.clip(moves)
         new = yield moved
         kept = new <= fitness
         x = np.where(kept[:, None], moved, x)
@@ -76,29 +82,30 @@ def fragrance(fitness: Array, c: float, a: float) -> Array:
     Array, shape (n,)
         Fragrances.
     """
-    finite = np.isfinite(fitness)
-    stimulus = np.where(finite, fitness, -np.inf)
-    largest = stimulus.max()
-    stimulus = np.where(finite, fitness, largest if finite.any() else 1.0)
-    least = stimulus.min()
+    least, stimulus = fitness[fitness.argmin()], fitness
+    if least == np.inf:
+        return np.full(len(fitness), c)
+    if fitness[fitness.argmax()] == np.inf:
+        feasible = np.where(fitness < np.inf, fitness, -np.inf)
+        stimulus = np.minimum(fitness, feasible[feasible.argmax()])
     if least <= 0:
         stimulus = stimulus - least + 1
     return np.asarray(c * stimulus**a)  # eq. 1
 
 
-def fluttered(task: Task, x: Array, flock: Array, best: Array, fragrances: Array, p: float) -> Array:
+def fluttered(task: Task, x: Array, rows: Rows, best: int, fragrances: Array, p: float) -> Array:
     """Return the moves of some butterflies, Arora & Singh 2019, eq. 2 and 3.
 
     Parameters
     ----------
     task : Task
         Random numbers.
-    x : Array, shape (m, dim)
-        The butterflies that move.
-    flock : Array, shape (n, dim)
+    x : Array, shape (n, dim)
         All butterflies.
-    best : Array, shape (dim,)
-        The best of them.
+    rows : Rows, shape (m,)
+        Those that move.
+    best : int
+        The best of all.
     fragrances : Array, shape (m,)
         Fragrance of each that moves.
     p : float
@@ -109,13 +116,17 @@ def fluttered(task: Task, x: Array, flock: Array, best: Array, fragrances: Array
     Array, shape (m, dim)
         Positions after the move, not yet in the box.
     """
-    m, n = len(x), len(flock)
-    share = task.rng.random((m, 1)) ** 2
-    local = task.rng.random((m, 1)) >= p
+    m, n = len(rows), len(x)
+    r, choice = task.rng.random((2, m))
     j = task.rng.integers(n, size=m)
-    k = (j + 1 + task.rng.integers(max(n - 1, 1), size=m)) % n  # another one
-    towards = np.where(local, share * flock[j] - flock[k], share * best - x)
-    return np.asarray(x + towards * fragrances[:, None])  # eq. 2, 3
+    k = j + task.rng.integers(1, max(n, 2), size=m)  # another one, counted round the end
+    # r^2 g - x_i towards the best, r^2 x_j - x_k between two others
+    towards_best = choice < p
+    np.copyto(j, best, where=towards_best)
+    np.copyto(k, rows, where=towards_best)
+    ahead, behind = x.take(j, axis=0), x.take(k, axis=0, mode="wrap")
+    steps = (r**2)[:, None] * ahead - behind
+    return np.asarray(x.take(rows, axis=0) + steps * fragrances[:, None])  # eq. 2, 3
 
 
 def grown(c: float, generations: float) -> float:

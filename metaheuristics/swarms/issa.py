@@ -27,7 +27,7 @@ import numpy as np
 
 from metaheuristics.driver.task import Array, Moves, Task
 from metaheuristics.swarms.butterfly import fluttered, fragrance, grown
-from metaheuristics.swarms.sparrow import Flock, Rows, forage
+from metaheuristics.swarms.sparrow import Drawn, Flock, Rows, forage
 
 
 def issa(
@@ -115,7 +115,8 @@ class Blend:
 
     def weigh(self) -> None:
         """Renew the weight after a generation; the first call, after the start, keeps 0.5."""
-        before, best = self._best, float(self.flock.fitness.min())
+        fitness = self.flock.fitness
+        before, best = self._best, float(fitness[fitness.argmin()])
         self._best = best
         if before is None:
             return
@@ -123,48 +124,50 @@ class Blend:
         self.weight = weight(list(self._changes), self._threshold * abs(best))
         self._c = grown(self._c, self._generations)
 
-    def chosen(self, rows: Rows, moved: Array) -> Array:
+    def chosen(self, rows: Rows, moves: Drawn) -> Array:
         """Choose the sparrow move with probability ``weight``, else the butterfly move.
 
         Parameters
         ----------
         rows : Rows, shape (m,)
             The individuals that move.
-        moved : Array, shape (m, dim)
-            Their sparrow moves, in the box.
+        moves : Drawn
+            Their sparrow moves, (m, dim).
 
         Returns
         -------
         Array, shape (m, dim)
-            What they do.
+            What they do, not yet in the box.
         """
         sparrows = self._task.rng.random((len(rows), 1)) < self.weight
-        return np.where(sparrows, moved, self._butterflies(rows))
+        chosen = self._butterflies(rows)
+        if np.count_nonzero(sparrows):
+            np.copyto(chosen, moves(), where=sparrows)
+        return chosen
 
-    def blended(self, rows: Rows, moved: Array) -> Array:
+    def blended(self, rows: Rows, moves: Drawn) -> Array:
         """Add both steps, weighted.
 
         Parameters
         ----------
         rows : Rows, shape (m,)
             The individuals that move.
-        moved : Array, shape (m, dim)
-            Their sparrow moves, in the box.
+        moves : Drawn
+            Their sparrow moves, (m, dim).
 
         Returns
         -------
         Array, shape (m, dim)
-            What they do.
+            What they do, not yet in the box.
         """
         w = self.weight
-        return self._task.clip(w * moved + (1 - w) * self._butterflies(rows))  # Zhou 2025, eq. 15
+        sparrows, butterflies = self._task.clip(moves()), self._task.clip(self._butterflies(rows))
+        return w * sparrows + (1 - w) * butterflies  # Zhou 2025, eq. 15
 
     def _butterflies(self, rows: Rows) -> Array:
         flock = self.flock
-        best = flock.x[flock.fitness.argmin()]
-        smell = fragrance(flock.fitness, self._c, self._a)[rows]
-        moves = fluttered(self._task, flock.x[rows], flock.x, best, smell, self._p)
-        return self._task.clip(moves)
+        smell = fragrance(flock.fitness, self._c, self._a).take(rows)
+        return fluttered(self._task, flock.x, rows, int(flock.fitness.argmin()), smell, self._p)
 
 
 def weight(changes: list[float], threshold: float) -> float:

@@ -34,8 +34,10 @@ from numpy.typing import NDArray
 from metaheuristics.driver.task import Array, Moves, Task
 
 Rows: TypeAlias = NDArray[np.intp]
-Combine: TypeAlias = Callable[[Rows, Array], Array]
-"""(rows, sparrow moves (m, dim) in the box) -> what is done instead (m, dim)."""
+Drawn: TypeAlias = Callable[[], Array]
+"""Moves (m, dim) whose random numbers are drawn already; the call computes them, if anybody wants them."""
+Combine: TypeAlias = Callable[[Rows, Drawn], Array]
+"""(rows, sparrow moves) -> what is done instead (m, dim); neither is in the box yet."""
 
 EPSILON = 1e-50
 """Keeps the divisor of Xue & Shen 2020, eq. 5, above zero."""
@@ -59,7 +61,7 @@ class Flock:
     def rank(self) -> None:
         """Sort, best first."""
         order = self.fitness.argsort(kind="stable")
-        self.x, self.fitness = self.x[order], self.fitness[order]
+        self.x, self.fitness = self.x.take(order, axis=0), self.fitness.take(order)
 
     def keep(self, rows: Rows, moved: Array, fitness: Array) -> None:
         """Take over the moves that are better.
@@ -73,9 +75,10 @@ class Flock:
         fitness : Array, shape (m,)
             Fitness there.
         """
-        better = fitness < self.fitness[rows]
-        taken = rows[better]
-        self.x[taken], self.fitness[taken] = moved[better], fitness[better]
+        better = (fitness < self.fitness.take(rows)).nonzero()[0]
+        if len(better):
+            taken = rows.take(better)
+            self.x[taken], self.fitness[taken] = moved.take(better, axis=0), fitness.take(better)
 
 
 def sparrow(
@@ -137,7 +140,7 @@ def forage(
     producers: float,
     scouts: float,
     safety: float | None,
-    combine: Combine = lambda rows, moved: moved,
+    combine: Combine = lambda rows, moves: moves(),
     after: Callable[[], None] = lambda: None,
 ) -> Moves:
     """Move a flock until the budget is gone.
@@ -179,67 +182,85 @@ def forage(
         yield from _batch(task, flock, every[:n_producers], moves, combine)
         if n > n_producers:
             rows = every[n_producers:]
-            moves = _scrounged(task, flock, rows, n_producers, printed=safety is None)
+            moves = _scrounged(task, flock, n_producers, printed=safety is None)
             yield from _batch(task, flock, rows, moves, combine)
         rows = task.rng.permutation(n)[:n_scouts]
         yield from _batch(task, flock, rows, _scouted(task, flock, rows), combine)
         after()
 
 
-def _batch(task: Task, flock: Flock, rows: Rows, moves: Array, combine: Combine) -> Moves:
-    moved = combine(rows, task.clip(moves))
+def _batch(task: Task, flock: Flock, rows: Rows, moves: Drawn, combine: Combine) -> Moves:
+    moved = task.clip(combine(rows, moves))
     flock.keep(rows, moved, (yield moved))
 
 
-def _produced(task: Task, flock: Flock, rows: Rows, generations: float, safety: float) -> Array:
+def _produced(task: Task, flock: Flock, rows: Rows, generations: float, safety: float) -> Drawn:
     """Moves of producers; alpha and Q are one number per sparrow, R2 one per generation."""
-    x = flock.x[rows]
+    x = flock.x.take(rows, axis=0)
     if task.rng.random() < safety:
         alpha = 1 - task.rng.random((len(rows), 1))  # in (0, 1]
-        shrunk = x * np.exp(-(rows[:, None] + 1) / (alpha * generations))  # eq. 3; Zhou 2025, eq. 8
-        return np.asarray(shrunk)
+        # eq. 3; Zhou 2025, eq. 8
+        return lambda: np.asarray(x * np.exp(-(rows[:, None] + 1) / (alpha * generations)))
     Q = task.rng.standard_normal((len(rows), 1))
-    return np.asarray(x + Q)  # eq. 3, L is a row of ones; Zhou 2025, eq. 9
+    return lambda: np.asarray(x + Q)  # eq. 3, L is a row of ones; Zhou 2025, eq. 9
 
 
-def _produced_printed(task: Task, flock: Flock, rows: Rows, t: float) -> Array:
+def _produced_printed(task: Task, flock: Flock, rows: Rows, t: float) -> Drawn:
     """Moves of producers as printed: t = generation / generations for i / iter_max, R the fitness."""
-    x, R = flock.x[rows], flock.fitness[rows, None]
+    x, R = flock.x.take(rows, axis=0), flock.fitness.take(rows)[:, None]
     alpha = 1 - task.rng.random((len(rows), 1))
     Q = task.rng.standard_normal((len(rows), 1))
-    exponent = -t * np.where(np.isfinite(R), R, 0.0) / alpha
-    shrunk = x * np.exp(np.minimum(exponent, LARGEST))  # Zhou 2025, eq. 8
-    return np.where(np.median(flock.fitness) > R, shrunk, x + Q)  # Zhou 2025, eq. 9
+
+    def moves() -> Array:
+        exponent = -t * np.where(np.isfinite(R), R, 0.0) / alpha
+        shrunk = x * np.exp(np.minimum(exponent, LARGEST))  # Zhou 2025, eq. 8
+        return np.where(np.median(flock.fitness) > R, shrunk, x + Q)  # Zhou 2025, eq. 9
+
+    return moves
 
 
-def _scrounged(task: Task, flock: Flock, rows: Rows, n_producers: int, *, printed: bool) -> Array:
-    """Moves of scroungers around the best producer; Q is one number per sparrow."""
+def _scrounged(task: Task, flock: Flock, n_producers: int, *, printed: bool) -> Drawn:
+    """Moves of scroungers, who follow the producers, around the best of these; Q: one per sparrow."""
     n, dim = flock.x.shape
-    x = flock.x[rows]
-    best = flock.x[flock.fitness[:n_producers].argmin()]
-    worst = flock.x[flock.fitness.argmax()]
-    rank = rows[:, None] + 1
-    Q = task.rng.standard_normal((len(rows), 1))
-    with np.errstate(over="ignore"):
-        hungry = Q * np.exp((worst - x) / rank**2)  # eq. 4; Zhou 2025, eq. 10
-    if printed:
-        near = best + np.abs(x - best) * task.rng.random(x.shape)  # Zhou 2025, eq. 10, printed
-    else:
-        A = 2.0 * task.rng.integers(2, size=x.shape) - 1
-        # A+ = A^T (A A^T)^-1 = A^T / dim: one number for all coordinates
-        near = best + (np.abs(x - best) * A).sum(axis=1, keepdims=True) / dim  # eq. 4
-    return np.asarray(np.where(rank > n / 2, hungry, near))
+    x = flock.x[n_producers:]
+    Q = task.rng.standard_normal((len(x), 1))
+    r = task.rng.random(x.shape) if printed else 2.0 * task.rng.integers(2, size=x.shape) - 1
+
+    def moves() -> Array:
+        best = flock.x[flock.fitness[:n_producers].argmin()]
+        worst = flock.x[flock.fitness.argmax()]
+        if printed:
+            near = best + np.abs(x - best) * r  # Zhou 2025, eq. 10, printed
+        else:
+            # A = r; A+ = A^T (A A^T)^-1 = A^T / dim: one number for all coordinates
+            near = best + np.add.reduce(np.abs(x - best) * r, axis=1, keepdims=True) / dim  # eq. 4
+        rank = np.arange(n_producers + 1.0, n + 1.0)[:, None]
+        with np.errstate(over="ignore"):
+            hungry = Q * np.exp((worst - x) / rank**2)  # eq. 4; Zhou 2025, eq. 10
+        first = max(n // 2 - n_producers, 0)  # of the ranks above n / 2
+        near[first:] = hungry[first:]
+        return np.asarray(near)
+
+    return moves
 
 
-def _scouted(task: Task, flock: Flock, rows: Rows) -> Array:
+def _scouted(task: Task, flock: Flock, rows: Rows) -> Drawn:
     """Moves of scouts; K is one number per sparrow, beta one per coordinate."""
-    x, fitness = flock.x[rows], flock.fitness[rows, None]
-    best, worst = flock.fitness.argmin(), flock.fitness.argmax()
-    beta = task.rng.standard_normal(x.shape)
+    beta = task.rng.standard_normal((len(rows), task.dim))
     K = 2 * task.rng.random((len(rows), 1)) - 1
-    to_best = flock.x[best] + beta * np.abs(x - flock.x[best])  # eq. 5; Zhou 2025, eq. 11
-    f_worst = flock.fitness[worst]
-    gap = np.subtract(fitness, f_worst, out=np.zeros_like(fitness), where=fitness < f_worst) + EPSILON
-    with np.errstate(over="ignore"):
-        away = x + K * (np.abs(x - flock.x[worst]) / gap)  # eq. 5; Zhou 2025, eq. 11
-    return np.asarray(np.where(fitness > flock.fitness[best], to_best, away))
+
+    def moves() -> Array:
+        x, fitness = flock.x.take(rows, axis=0), flock.fitness.take(rows)[:, None]
+        best, worst = flock.fitness.argmin(), flock.fitness.argmax()
+        to_best = flock.x[best] + beta * np.abs(x - flock.x[best])  # eq. 5; Zhou 2025, eq. 11
+        worse = fitness > flock.fitness[best]
+        if np.count_nonzero(worse) == len(rows):  # nobody needs the other move
+            return np.asarray(to_best)
+        f_worst = flock.fitness[worst]
+        gap = np.subtract(fitness, f_worst, out=np.zeros_like(fitness), where=fitness < f_worst)
+        with np.errstate(over="ignore"):
+            # eq. 5; Zhou 2025, eq. 11
+            away = x + K * (np.abs(x - flock.x[worst]) / (gap + EPSILON))
+        return np.asarray(np.where(worse, to_best, away))
+
+    return moves

@@ -1,4 +1,4 @@
-"""``timebound speed``: candidate checks per second, what a swarm costs, and what writing a file costs."""
+"""``timebound speed``: candidate checks and evaluations of whole swarms per second, and written files."""
 
 from __future__ import annotations
 
@@ -12,7 +12,8 @@ from compare.commands.studies import alone
 from compare.screen import show
 from compare.studies import speed as checks
 from compare.studies.speed_files import FILES
-from compare.studies.speed_swarms import COSTS, PAIRED
+from compare.studies.speed_mealpy import PAIRED
+from compare.studies.speed_swarms import COSTS
 from formulations import InputError, load
 
 _FIVE_MINUTES = 300.0  # s
@@ -33,7 +34,8 @@ def speed(
     case
         A problem file or a shipped case; of the family 3-5-3, unless --swarms is given.
     swarms
-        Show instead what each swarm costs beside its objective, and beside the same swarm in mealpy.
+        Show instead the evaluations per second of each swarm with its driver, on one core and in two
+        processes, who spends the time, and the same swarms in mealpy.
     files
         Show instead what it takes to write five minutes of seven joints at 1 kHz in each format, read back
         and judged.

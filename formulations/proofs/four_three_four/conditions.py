@@ -10,7 +10,7 @@ from typing import Any
 import numpy as np
 
 from formulations.compiled import compiled
-from formulations.families.polynomial import _closed_form_roots
+from formulations.families.polynomial import closed_form_roots
 from formulations.proofs.conditions import (
     JOINT,
     JUMP,
@@ -64,7 +64,7 @@ def _places(order: int, k: int, n: int, value: Any, is_open: Any, places: Any, w
     elif top >= 2:
         for i in range(top):
             work[i] = (i + 1) * value[i + 1]
-        found += _closed_form_roots(work, top - 1, places[found:])
+        found += closed_form_roots(work, top - 1, places[found:])
     return found
 
 

@@ -10,7 +10,7 @@ from typing import Any
 import numpy as np
 
 from formulations.compiled import compiled
-from formulations.families.polynomial import _bracketed_roots, _closed_form_roots
+from formulations.families.polynomial import bracketed_roots, closed_form_roots
 from formulations.proofs.conditions import (
     FIRST,
     JOINT,
@@ -65,14 +65,14 @@ def candidates(form: Any, data: Any, work: Any) -> int:
     for j in range(d.shape[1]):
         _middle(d[0, j], d[1, j], d[2, j], c[0], c[1], work)
         velocity, acceleration, jerk = work[1], work[2], work[3]
-        n_jerk = _closed_form_roots(jerk, 2, work[4])
-        n_acceleration = _bracketed_roots(acceleration, 3, work[4], n_jerk, work[5])
+        n_jerk = closed_form_roots(jerk, 2, work[4])
+        n_acceleration = bracketed_roots(acceleration, 3, work[4], n_jerk, work[5])
         for order in range(4):
             if order == 0:
                 if limit[0, j] == np.inf and limit[1, j] == np.inf:
                     continue
                 places = work[6]
-                count = _bracketed_roots(velocity, 4, work[5], n_acceleration, places)
+                count = bracketed_roots(velocity, 4, work[5], n_acceleration, places)
             elif limit[order + 1, j] == np.inf:
                 continue
             elif order == 1:

@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+import pickle
+
 import numpy as np
 import pytest
 from conftest import SOLVED
@@ -46,3 +48,14 @@ def test_the_stretched_coding_makes_every_shape_feasible_but_for_position() -> N
             assert not verdict.position_kept
     assert np.isinf(fitness).any()
     assert np.isfinite(fitness).any()
+
+
+def test_an_objective_that_has_worked_can_be_sent_to_another_process() -> None:
+    problem = load("ur5")
+    durations = np.random.default_rng(2).uniform(0.5, 30.0, (20, 3))
+    for stretch in (False, True):
+        objective = Objective(problem, stretch)
+        before = objective(durations)
+        again = pickle.loads(pickle.dumps(objective))
+        assert again == objective
+        np.testing.assert_array_equal(again(durations), before)

@@ -88,8 +88,8 @@ def test_issa_that_always_moves_like_a_sparrow_is_a_sparrow_search() -> None:
     blend.weight = 1.0
     moves = task.clip(other.sample(10))
     rows = np.arange(10)
-    assert np.array_equal(blend.chosen(rows, moves), moves)
-    np.testing.assert_allclose(blend.blended(rows, moves), moves, rtol=1e-15)
+    assert np.array_equal(blend.chosen(rows, lambda: moves), moves)
+    np.testing.assert_allclose(blend.blended(rows, lambda: moves), moves, rtol=1e-15)
 
 
 def test_the_weight_of_issa_is_the_mean_change_over_the_threshold() -> None:
