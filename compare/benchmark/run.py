@@ -3,15 +3,9 @@
 from __future__ import annotations
 
 import hashlib
-import multiprocessing
-import os
-import signal
 import sys
 from collections import Counter
-from collections.abc import Callable, Iterable, Iterator
-from concurrent.futures import FIRST_COMPLETED, Executor, Future, ProcessPoolExecutor, wait
-from contextlib import contextmanager
-from typing import Any, TypeVar
+from typing import Any
 
 import numpy as np
 
@@ -25,96 +19,18 @@ from compare.benchmark.records.rejudge import judged_again
 from compare.benchmark.records.rows import BoundProof, Row, RunKey
 from compare.benchmark.records.store import Store
 from compare.benchmark.statistics import bound_of
-from compare.screen import bar
+from compare.engines import Engine, each
 from formulations import FAMILIES, Problem, ladder
 
-T = TypeVar("T")
-_THREADS = ("OMP_NUM_THREADS", "OPENBLAS_NUM_THREADS", "MKL_NUM_THREADS")
 _BATCH = 5  # runs per call: a run takes milliseconds
-_WAITING = 64  # calls handed to the workers at a time, enough to keep all of them busy
 
 
-@contextmanager
-def workers(jobs: int) -> Iterator[ProcessPoolExecutor]:
-    """Start worker processes, afresh on every platform; an interrupt drops the calls that wait.
-
-    Parameters
-    ----------
-    jobs : int
-        Number of processes.
-
-    Yields
-    ------
-    ProcessPoolExecutor
-    """
-    context = multiprocessing.get_context("spawn")
-    pool = ProcessPoolExecutor(jobs, mp_context=context, initializer=_forget_the_command_line)
-    # workers inherit that they ignore an interrupt, which is this process's to handle, and that each
-    # of them has one thread: linear algebra with threads of its own would only wait for the others
-    before = signal.signal(signal.SIGINT, signal.SIG_IGN)
-    unset = [name for name in _THREADS if name not in os.environ]
-    os.environ.update(dict.fromkeys(unset, "1"))
-    try:
-        for _ in range(jobs):
-            pool.submit(os.getpid)
-    finally:
-        signal.signal(signal.SIGINT, before)
-        for name in unset:
-            del os.environ[name]
-    try:
-        yield pool
-    except BaseException:
-        pool.shutdown(wait=False, cancel_futures=True)
-        raise
-    pool.shutdown()
-
-
-def _forget_the_command_line() -> None:
-    """Drop the options: processes of plug-ins inherit them, and must not learn where the report is."""
-    del sys.argv[1:]
-
-
-def each(
-    pool: Executor,
-    title: str,
-    function: Callable[..., T],
-    calls: Iterable[tuple[Any, ...]],
-) -> Iterator[T]:
-    """Call a function in the workers, under a progress bar with the time left.
-
-    Parameters
-    ----------
-    pool : Executor
-    title : str
-        Words beside the bar.
-    function : callable
-        A function of a module, so that workers can import it.
-    calls : iterable of tuple
-        Its arguments, call by call.
-
-    Yields
-    ------
-    object
-        What the function returns, as the calls end.
-    """
-    waiting = list(calls)[::-1]
-    with bar(title, len(waiting)) as advance:
-        running: set[Future[T]] = set()
-        while waiting or running:
-            while waiting and len(running) < _WAITING:
-                running.add(pool.submit(function, *waiting.pop()))
-            done, running = wait(running, return_when=FIRST_COMPLETED)
-            for future in done:
-                advance()
-                yield future.result()
-
-
-def climb(pool: Executor, problems: dict[str, Problem], store: Store, *, certify: bool = True) -> None:
+def climb(pool: Engine, problems: dict[str, Problem], store: Store, *, certify: bool = True) -> None:
     """Find every bound of every case and write it to the store; the longest task first.
 
     Parameters
     ----------
-    pool : Executor
+    pool : Engine
     problems : dict of str to Problem
         By case.
     store : Store
@@ -131,7 +47,7 @@ def _ladder(case: str, problem: Problem, certify: bool) -> tuple[str, LadderReco
     return case, ladder_record(ladder(problem, certify=certify))
 
 
-def swarm(pool: Executor, runs: list[Run], problems: dict[str, Problem], store: Store) -> None:
+def swarm(pool: Engine, runs: list[Run], problems: dict[str, Problem], store: Store) -> None:
     """Grade every run that the store does not have yet; the rows end in the order of the runs.
 
     Stored rows count only if they belong to one of these runs and were made by the same code,
@@ -140,7 +56,7 @@ def swarm(pool: Executor, runs: list[Run], problems: dict[str, Problem], store: 
 
     Parameters
     ----------
-    pool : Executor
+    pool : Engine
     runs : list of Run
         The plan.
     problems : dict of str to Problem
@@ -208,12 +124,12 @@ def _mismatch(row: Row, plan: dict[RunKey, Run], problems: dict[str, Problem]) -
     return provenance_of(run.swarm, problem, run.population, run.time_limit).difference(row)
 
 
-def audits(pool: Executor, papers: list[str], store: Store) -> None:
+def audits(pool: Engine, papers: list[str], store: Store) -> None:
     """Audit every paper whose audit the store does not have yet; the longest first.
 
     Parameters
     ----------
-    pool : Executor
+    pool : Engine
     papers : list of str
         Names of shipped papers.
     store : Store
@@ -246,12 +162,12 @@ def _audit(name: str) -> tuple[str, list[dict[str, Any]]]:
     return name, [audit(paper).to_json() for paper in load_papers(name)]
 
 
-def tabulate_known_times(pool: Executor, problems: dict[str, Problem], store: Store) -> None:
+def tabulate_known_times(pool: Engine, problems: dict[str, Problem], store: Store) -> None:
     """Write what is known of the task of each case, from the bounds and rows of the store.
 
     Parameters
     ----------
-    pool : Executor
+    pool : Engine
     problems : dict of str to Problem
         By case.
     store : Store

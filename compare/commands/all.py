@@ -11,9 +11,10 @@ from compare.benchmark import suite
 from compare.benchmark.known_times import key_of_paper
 from compare.benchmark.objective import CODINGS
 from compare.benchmark.records.store import Settings, Store
-from compare.benchmark.run import audits, climb, swarm, tabulate_known_times, warm_up, workers
+from compare.benchmark.run import audits, climb, swarm, tabulate_known_times, warm_up
 from compare.commands import DONE
-from compare.commands.options import CORES, Cases, Codings, Jobs, Out, Swarms, positive
+from compare.commands.options import CORES, Cases, Codings, Jobs, OnCluster, Out, Swarms, positive
+from compare.engines import start
 from compare.files import output_folder
 from compare.report.page import render
 from compare.studies import proofs, study
@@ -36,6 +37,7 @@ def compare_all(
     full: bool = False,
     out: Out = "report",
     jobs: Jobs = CORES,
+    cluster: OnCluster = None,
     cases: Cases = None,
     swarms: Swarms = None,
     rivals: Annotated[bool, Parameter(help=f"Run these too: {', '.join(suite.RIVALS)}.")] = False,
@@ -100,7 +102,7 @@ def compare_all(
     store.write_settings(settings)
 
     warm_up(problems)
-    with workers(jobs) as pool:
+    with start(jobs, cluster) as pool:
         climb(pool, problems, store, certify=not quick)
         if not quick:
             audits(pool, sorted({paper for case in chosen if (paper := key_of_paper(case))}), store)

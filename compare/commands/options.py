@@ -264,6 +264,11 @@ Jobs = Annotated[
     int,
     Parameter(name="--jobs", validator=positive, help="Worker processes."),
 ]
+OnCluster = Annotated[
+    str | None,
+    Parameter(name="--cluster", metavar="ADDRESS",
+              help="Run on the workers of this Dask scheduler, tcp://HOST:PORT, in place of --jobs."),
+]  # fmt: skip
 Seeds = Annotated[int, Parameter(name="--seeds", validator=positive, help="Number of seeds.")]
 Seed = Annotated[
     int, Parameter(name="--seed", validator=not_negative, help="Seed of the random numbers.")

@@ -8,9 +8,9 @@ from typing import Annotated
 from cyclopts import Parameter
 
 from compare.benchmark.records.store import Store
-from compare.benchmark.run import workers
 from compare.commands import DONE
 from compare.commands.options import Jobs
+from compare.engines import workers
 from compare.report.page import render
 from formulations import load
 

@@ -4,7 +4,6 @@ from __future__ import annotations
 
 import base64
 import json
-from concurrent.futures import Executor
 from dataclasses import dataclass
 from pathlib import Path
 from typing import Any
@@ -18,8 +17,8 @@ from compare.benchmark.objective import CODINGS
 from compare.benchmark.records.rejudge import judged_again
 from compare.benchmark.records.rows import Row, RowStatus
 from compare.benchmark.records.store import Settings, Store
-from compare.benchmark.run import each
 from compare.benchmark.statistics import Summary, best_claim, best_row, bound_of, summaries
+from compare.engines import Engine, each
 from compare.files import write_text
 from compare.report.figures.case import draw_case
 from compare.report.papers_at_a_glance import papers_at_a_glance
@@ -53,12 +52,12 @@ LIMITATIONS = [
 ]
 
 
-def render(pool: Executor, folder: Path, problems: dict[str, Problem], settings: Settings) -> Path:
+def render(pool: Engine, folder: Path, problems: dict[str, Problem], settings: Settings) -> Path:
     """Draw all figures and write index.html and report.md, from the store alone.
 
     Parameters
     ----------
-    pool : Executor
+    pool : Engine
     folder : Path
         Folder of the store and of the report.
     problems : dict of str to Problem

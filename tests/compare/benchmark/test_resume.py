@@ -3,12 +3,12 @@
 from __future__ import annotations
 
 from collections.abc import Iterator
-from concurrent.futures import Executor, ThreadPoolExecutor
 from dataclasses import replace
 from pathlib import Path
 
 import pytest
 from graded_runs import without_times
+from one_thread import OneThread
 
 from compare.benchmark import suite
 from compare.benchmark.grade import Run
@@ -19,6 +19,7 @@ from compare.benchmark.records.rows import csv_text
 from compare.benchmark.records.store import Store
 from compare.benchmark.run import swarm
 from compare.benchmark.statistics import summaries
+from compare.engines import Engine
 from formulations import load
 
 PROBLEMS = {"cobot": load("cobot")}
@@ -36,8 +37,8 @@ def ladder_record(family: float) -> LadderRecord:
 
 
 @pytest.fixture
-def pool() -> Iterator[Executor]:
-    with ThreadPoolExecutor(1) as threads:
+def pool() -> Iterator[Engine]:
+    with OneThread() as threads:
         yield threads
 
 
@@ -55,7 +56,7 @@ def plan(swarms: tuple[str, ...] = ("pso",), seeds: int = 4, evaluations: int = 
     )
 
 
-def fresh(pool: Executor, folder: Path, runs: list[Run]) -> list[dict[str, object]]:
+def fresh(pool: Engine, folder: Path, runs: list[Run]) -> list[dict[str, object]]:
     """The rows of these runs in a folder of their own."""
     folder.mkdir()
     clean = Store(folder)
@@ -66,7 +67,7 @@ def fresh(pool: Executor, folder: Path, runs: list[Run]) -> list[dict[str, objec
 
 
 def test_another_budget_does_not_enter_the_medians(
-    pool: Executor, store: Store, tmp_path: Path, capsys: pytest.CaptureFixture[str]
+    pool: Engine, store: Store, tmp_path: Path, capsys: pytest.CaptureFixture[str]
 ) -> None:
     swarm(pool, plan(evaluations=600), PROBLEMS, store)
     capsys.readouterr()
@@ -84,7 +85,7 @@ def test_another_budget_does_not_enter_the_medians(
 
 
 def test_fewer_seeds_and_swarms_leave_the_others_out(
-    pool: Executor, store: Store, capsys: pytest.CaptureFixture[str]
+    pool: Engine, store: Store, capsys: pytest.CaptureFixture[str]
 ) -> None:
     swarm(pool, plan(("pso", "random")), PROBLEMS, store)
     capsys.readouterr()
@@ -112,7 +113,7 @@ def test_fewer_seeds_and_swarms_leave_the_others_out(
     ],
 )
 def test_a_row_made_by_something_else_is_made_again(
-    pool: Executor, store: Store, capsys: pytest.CaptureFixture[str],
+    pool: Engine, store: Store, capsys: pytest.CaptureFixture[str],
     column: str, value: object, words: str,
 ) -> None:  # fmt: skip
     swarm(pool, plan(), PROBLEMS, store)
@@ -128,7 +129,7 @@ def test_a_row_made_by_something_else_is_made_again(
 
 
 def test_rows_of_the_same_plan_are_kept_and_nothing_is_said(
-    pool: Executor, store: Store, capsys: pytest.CaptureFixture[str]
+    pool: Engine, store: Store, capsys: pytest.CaptureFixture[str]
 ) -> None:
     swarm(pool, plan(), PROBLEMS, store)
     before = store.rows()
@@ -140,7 +141,7 @@ def test_rows_of_the_same_plan_are_kept_and_nothing_is_said(
 
 
 def test_kept_rows_are_measured_against_the_bound_that_the_store_has_now(
-    pool: Executor, store: Store
+    pool: Engine, store: Store
 ) -> None:
     swarm(pool, plan(), PROBLEMS, store)
     store.write_ladder("cobot", ladder_record(3.0))
@@ -150,7 +151,7 @@ def test_kept_rows_are_measured_against_the_bound_that_the_store_has_now(
         assert row.seconds is None or row.gap == row.seconds / 3.0 - 1.0
 
 
-def test_a_second_row_of_one_run_is_set_aside(pool: Executor, store: Store) -> None:
+def test_a_second_row_of_one_run_is_set_aside(pool: Engine, store: Store) -> None:
     swarm(pool, plan(), PROBLEMS, store)
     rows = store.rows()
     store.rows_file.write_text(csv_text([*rows, replace(rows[0], seconds=1.0, gap=-0.7)]))

@@ -3,10 +3,10 @@
 from __future__ import annotations
 
 import json
-from concurrent.futures import ThreadPoolExecutor
 from pathlib import Path
 
 import pytest
+from one_thread import OneThread
 
 from compare.audit import FAULTS
 from compare.audit.findings import IN_SHORT
@@ -81,7 +81,7 @@ def test_what_leaves_the_position_limits_has_no_slowed_total() -> None:
 
 def test_audits_are_stored_kept_and_made_again(tmp_path: Path) -> None:
     store = Store(tmp_path)
-    with ThreadPoolExecutor(1) as pool:
+    with OneThread() as pool:
         audits(pool, ["z1"], store)
         path = tmp_path / "papers" / "z1" / "audit.json"
         data = json.loads(path.read_text())
