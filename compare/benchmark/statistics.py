@@ -2,13 +2,14 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Sequence
+from collections.abc import Collection, Iterable, Sequence
 from dataclasses import dataclass
 
 import numpy as np
 
 from compare.benchmark.grade import Trace
 from compare.benchmark.ladders import LadderRecord
+from compare.benchmark.records.pooled import pooled
 from compare.benchmark.records.rows import BoundProof, Row
 from formulations.problem.arrays import Array
 
@@ -47,12 +48,17 @@ class Summary:
     stretch: float | None
 
 
-def summaries(rows: Iterable[Row]) -> dict[tuple[str, str, str], Summary]:
+def summaries(
+    rows: Iterable[Row], *, allow: Collection[str] = ()
+) -> dict[tuple[str, str, str], Summary]:
     """Summarise rows by case, coding and swarm.
 
     Parameters
     ----------
     rows : iterable of Row
+        They pass the gate `compare.benchmark.records.pooled.pooled`.
+    allow : collection of str
+        Columns in which the rows of one cell may differ, as the gate takes them.
 
     Returns
     -------
@@ -60,7 +66,7 @@ def summaries(rows: Iterable[Row]) -> dict[tuple[str, str, str], Summary]:
         In the order in which the rows name them first.
     """
     groups: dict[tuple[str, str, str], list[Row]] = {}
-    for row in rows:
+    for row in pooled(rows, allow=allow):
         groups.setdefault((row.case, row.coding, row.swarm), []).append(row)
     return {key: _summary(key, group) for key, group in groups.items()}
 

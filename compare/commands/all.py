@@ -86,15 +86,13 @@ def compare_all(
     )
     problems = {case: load(case) for case in chosen}
     store = Store(output_folder(out))
-    if resume:
-        store.mend()
-    else:
+    if not resume:
         store.clear()
     budgets = sorted({run.budget for run in runs})
     settings = Settings(
         size=size,
         cases=tuple(chosen),
-        seeds=max(run.seed for run in runs) + 1,
+        seeds=tuple(sorted({run.seed for run in runs})),
         budget=" or ".join(str(budget) for budget in budgets) + " evaluations",
     )
     store.write_settings(settings)

@@ -72,13 +72,13 @@ def render(pool: Executor, folder: Path, problems: dict[str, Problem], settings:
         The page.
     """
     store = Store(folder)
-    ladders, traces = store.ladders(), store.traces()
+    ladders = store.ladders()
     rows = judged_again(store.rows(), problems, ladders)
     calls = []
     for case, problem in problems.items():
         mine = [row for row in rows if row.case == case]
         held = {r.key for r in mine if r.status is not RowStatus.contradicted}
-        kept = {key: found for key, found in traces.items() if key in held}
+        kept = {key: found for key, found in store.traces(case) if key in held}
         calls.append((folder, case, problem, ladders[case], mine, kept))
     for _ in each(pool, "figures", draw_case, calls):
         pass
@@ -175,7 +175,7 @@ def _context(
     settings: Settings,
 ) -> dict[str, Any]:
     """What the templates say of the swarms."""
-    found = summaries(rows)
+    found = summaries(rows, allow=settings.allow)
     cases = [case for case in problems if case in ladders]
     codings = [c for c in CODINGS if any(row.coding == c for row in rows)]
     ran = {row.swarm: row for row in rows}
