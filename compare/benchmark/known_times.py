@@ -175,7 +175,7 @@ def _swarm(case: str, rows: Iterable[Row]) -> KnownTime:
     """The paper's swarm on all durations at once, every candidate stretched to feasibility."""
     swarm = SWARMS.get(case, "")
     wanted = (case, "stretched", swarm)
-    mine = [row for row in rows if (row.case, row.coding, row.swarm) == wanted]
+    mine = [row for row in rows if (row.case, row.variant, row.swarm) == wanted]
     what = f"its swarm ({swarm or 'none'}) with the exact stretch"
     seconds = median(times_of(mine))
     if seconds is None:

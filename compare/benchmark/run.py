@@ -202,8 +202,12 @@ def _mismatch(row: Row, plan: dict[RunKey, Run], problems: dict[str, Problem]) -
         same = [key for key in plan if key[:3] == row.key[:3]]
         if not same:
             return "a case, coding or swarm that is not asked for"
+        ways = {(key.track, key.coordinates) for key in same}
+        if (row.track, row.coordinates) not in ways:
+            return "a track or coordinates that are not asked for"
         sizes = {(key.budget, key.population) for key in same}
-        return "a seed that is not asked for" if row.key[4:] in sizes else "another budget"
+        fits = (row.budget, row.population) in sizes
+        return "a seed that is not asked for" if fits else "another budget"
     problem = problems[run.case]
     return provenance_of(run.swarm, problem, run.population, run.time_limit).difference(row)
 

@@ -4,6 +4,7 @@ rows.csv               one line per run; lines are appended whole, so a killed r
 traces.jsonl           one line per run: best fitness against evaluations
 rows-set-aside.csv     rows that ``--resume`` could not use
 ladders/CASE.json      every bound of a case
+instances/NAME.json    the problem behind a case
 known_times/CASE.json  what a case's paper printed, beside all that is known of its task
 papers/KEY/audit.json  the audit of a paper and of its variants
 settings.json          what was asked for
@@ -21,6 +22,7 @@ from typing import Any
 from compare.benchmark.grade import Graded, Run, Trace
 from compare.benchmark.known_times import KnownTime
 from compare.benchmark.ladders import LadderRecord, checked_ladder_record
+from compare.benchmark.protocol import Coordinates, Track
 from compare.benchmark.records.rows import Row, RunKey, csv_text, read_csv
 from compare.files import write_json, write_text
 from formulations import InputError
@@ -80,7 +82,12 @@ class Store:
         """Start afresh: a table without rows, and nothing of an earlier comparison."""
         self._replace([], {})
         self.set_aside_file.unlink(missing_ok=True)
-        for pattern in ("ladders/*.json", "known_times/*.json", "papers/*/audit.json"):
+        for pattern in (
+            "ladders/*.json",
+            "instances/*.json",
+            "known_times/*.json",
+            "papers/*/audit.json",
+        ):
             for old in self.folder.glob(pattern):
                 old.unlink()
 
@@ -146,7 +153,9 @@ class Store:
         for line in text[: text.rfind("\n") + 1].splitlines():
             try:
                 entry = json.loads(line)
-                found[RunKey(*entry["run"])] = [
+                key = RunKey(*entry["run"])
+                key = key._replace(track=Track(key.track), coordinates=Coordinates(key.coordinates))
+                found[key] = [
                     Trace(t["joint"], t["evaluations"], [_infinite(b) for b in t["best"]])
                     for t in entry["traces"]
                 ]
@@ -204,6 +213,21 @@ class Store:
             except TypeError as error:
                 raise InputError(f"{path}: not a table of known times: {error}") from None
         return found
+
+    def write_instance(self, name: str, data: dict[str, Any]) -> None:
+        """Keep the problem behind a case as plain data, so that no report needs another list of cases.
+
+        Parameters
+        ----------
+        name : str
+        data : dict
+            As `compare.benchmark.suite.Instance.to_json` gives it.
+        """
+        self._write(f"instances/{name}.json", data)
+
+    def instances(self) -> dict[str, dict[str, Any]]:
+        """Instances by name, as plain data."""
+        return {path.stem: _read(path) for path in sorted(self.folder.glob("instances/*.json"))}
 
     def write_audit(self, paper: str, made_of: Mapping[str, str], audits: list[dict[str, Any]]) -> None:
         """Keep the audits of a paper and its variants.
