@@ -178,7 +178,7 @@ def _swarm(case: str, rows: Iterable[Row], allow: Collection[str]) -> KnownTime:
     """The paper's swarm on all durations at once, every candidate stretched to feasibility."""
     swarm = SWARMS.get(case, "")
     wanted = (case, "stretched", swarm)
-    mine = pooled((r for r in rows if (r.case, r.coding, r.swarm) == wanted), allow=allow)
+    mine = pooled((r for r in rows if (r.case, r.variant, r.swarm) == wanted), allow=allow)
     what = f"its swarm ({swarm or 'none'}) with the exact stretch"
     seconds = median(times_of(mine))
     if seconds is None:

@@ -9,8 +9,12 @@ from compare.benchmark.grade import Run
 from compare.benchmark.records.provenance import provenance_of
 from formulations import Problem
 
-_CELL = ("case", "coding", "swarm")
-_SIZE = ("budget", "population")
+# what a plan must have in common with a row, step by step, and what is said where it has not
+_STEPS = (
+    (("case", "coding", "swarm"), "a case, coding or swarm that is not asked for"),
+    (("track", "coordinates"), "a track or coordinates that are not asked for"),
+    (("budget", "population"), "another budget"),
+)
 
 
 def mismatch(maker: Mapping[str, Any], runs: Sequence[Run], problems: Mapping[str, Problem]) -> str:
@@ -30,12 +34,11 @@ def mismatch(maker: Mapping[str, Any], runs: Sequence[Run], problems: Mapping[st
     str
         Ends the sentence "a row with".
     """
-    same = [run for run in runs if all(getattr(run, name) == maker[name] for name in _CELL)]
-    if not same:
-        return "a case, coding or swarm that is not asked for"
-    same = [run for run in same if all(getattr(run, name) == maker[name] for name in _SIZE)]
-    if not same:
-        return "another budget"
+    same = list(runs)
+    for names, reason in _STEPS:
+        same = [run for run in same if all(getattr(run, name) == maker[name] for name in names)]
+        if not same:
+            return reason
     run = same[0]
     wanted = provenance_of(run.swarm, problems[run.case], run.population, run.time_limit)
     return wanted.difference(maker) or "a seed that is not asked for"

@@ -50,7 +50,7 @@ def pooled(rows: Iterable[Row], *, allow: Collection[str] = ()) -> list[Row]:
     first: dict[tuple[object, ...], Row] = {}
     seeds: set[tuple[object, ...]] = set()
     for row in found:
-        cell = tuple(getattr(row, name, "") for name in CELL)
+        cell = tuple(getattr(row, name) for name in CELL)
         other = first.setdefault(cell, row)
         for name, words in _WORDS.items():
             one, two = getattr(other, name), getattr(row, name)

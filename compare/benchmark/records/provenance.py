@@ -18,14 +18,15 @@ from typing import Any
 
 import numpy as np
 
+from compare.benchmark.coordinates import seen_in
 from compare.benchmark.objective import Objective
 from formulations import Problem
 from formulations.climb import versions
 from metaheuristics import Algorithm, algorithm, minimise
 from metaheuristics.entry import TIME_LIMIT
 
-# what every run goes through, whatever its swarm: the driver and the coding
-_ALWAYS = (minimise.__module__, Objective.__module__)
+# what every run goes through, whatever its swarm: the driver, the coding and the coordinates
+_ALWAYS = (minimise.__module__, Objective.__module__, seen_in.__module__)
 
 
 @dataclass(frozen=True, slots=True)

@@ -276,6 +276,21 @@ class Store:
         except TypeError as error:
             raise InputError(f"{self.file}: not a table of known times: {error}") from None
 
+    def write_instance(self, name: str, data: dict[str, Any]) -> None:
+        """Keep what is known of an instance, as plain data.
+
+        Parameters
+        ----------
+        name : str
+        data : dict
+            Ready for strict JSON.
+        """
+        self._write("instance", name, data)
+
+    def instances(self) -> dict[str, dict[str, Any]]:
+        """Instances by name, as plain data."""
+        return self._documents("instance")
+
     def write_audit(self, paper: str, made_of: Mapping[str, str], audits: list[dict[str, Any]]) -> None:
         """Keep the audits of a paper and its variants.
 
