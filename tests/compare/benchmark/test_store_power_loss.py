@@ -12,6 +12,7 @@ import sqlite3
 import struct
 from collections.abc import Iterator
 from dataclasses import replace
+from functools import cache
 from pathlib import Path
 from typing import Any
 
@@ -27,9 +28,13 @@ from formulations import InputError, load
 COUNT = 12
 
 
+@cache
+def one(seed: int) -> Graded:
+    return graded(load("sr4c"), 4.7, "shared", "random", seed, 30)
+
+
 def runs(count: int, first: int = 0) -> list[Graded]:
-    problem = load("sr4c")
-    return [graded(problem, 4.7, "shared", "random", seed, 30) for seed in range(first, first + count)]
+    return [one(seed) for seed in range(first, first + count)]
 
 
 @pytest.fixture(scope="module")
@@ -123,7 +128,7 @@ def test_a_checkpoint_cut_short_loses_nothing(
 
 def test_the_log_is_on_the_disk_before_a_run_counts_as_stored(tmp_path: Path) -> None:
     store = stored(tmp_path, 1)
-    with store._database.reading() as connection:
+    with store.database.reading() as connection:
         assert connection.execute("PRAGMA journal_mode").fetchone() == ("wal",)
         assert connection.execute("PRAGMA synchronous").fetchone() == (2,)  # FULL
 
@@ -148,7 +153,7 @@ def test_a_run_cut_short_between_its_tables_leaves_nothing(
             raise Killed
         return sqlite3.SQLITE_OK
 
-    with store._database.reading() as connection:
+    with store.database.reading() as connection:
         before = list(connection.iterdump())
         connection.set_authorizer(killed)
         with pytest.raises(InputError):
@@ -161,7 +166,7 @@ def test_a_run_cut_short_between_its_tables_leaves_nothing(
 
 def test_a_full_disk_is_one_line_and_loses_nothing(tmp_path: Path) -> None:
     store = stored(tmp_path, 5)
-    with store._database.reading() as connection:
+    with store.database.reading() as connection:
         (pages,) = connection.execute("PRAGMA page_count").fetchone()
         connection.execute(f"PRAGMA max_page_count = {pages + 2}")
         added = 5

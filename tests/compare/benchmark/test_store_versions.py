@@ -97,10 +97,10 @@ def test_a_migration_that_fails_leaves_the_old_store(
 
     def failing(connection: sqlite3.Connection) -> None:
         step(connection)
-        connection.execute("SELECT * FROM nothing")
+        connection.execute("SELECT * FROM missing")
 
     monkeypatch.setitem(migrations.STEPS, 1, failing)
-    with pytest.raises(InputError, match="no such table: nothing"):
+    with pytest.raises(InputError, match="no such table: missing"):
         Store(tmp_path).rows()
     assert schema_of(tmp_path) == before
     monkeypatch.undo()
