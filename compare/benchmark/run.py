@@ -169,8 +169,7 @@ def swarm(pool: Executor, runs: list[Run], problems: dict[str, Problem], store: 
     calls = [([(run, problems[run.case], *bounds[run.case]) for run in batch],) for batch in batches]
     try:
         for graded in each(pool, f"swarms (x{_BATCH} runs)", _grades, calls):
-            for one in graded:
-                store.add(one)
+            store.add_all((one.row, one.traces) for one in graded)  # what arrives together
     except KeyboardInterrupt:
         store.write_csv()
         raise
