@@ -8,7 +8,7 @@ import os
 import signal
 import sys
 from collections import Counter
-from collections.abc import Callable, Iterable, Iterator
+from collections.abc import Callable, Collection, Iterable, Iterator
 from concurrent.futures import FIRST_COMPLETED, Executor, Future, ProcessPoolExecutor, wait
 from contextlib import contextmanager
 from typing import Any, TypeVar
@@ -28,7 +28,7 @@ from compare.benchmark.records.rows import BoundProof, Row
 from compare.benchmark.records.store import Store
 from compare.benchmark.statistics import bound_of
 from compare.screen import bar
-from formulations import FAMILIES, Problem, ladder
+from formulations import FAMILIES, InputError, Problem, ladder
 
 T = TypeVar("T")
 _THREADS = ("OMP_NUM_THREADS", "OPENBLAS_NUM_THREADS", "MKL_NUM_THREADS")
@@ -141,7 +141,14 @@ def _ladder(case: str, problem: Problem, certify: bool) -> tuple[str, LadderReco
     return case, ladder_record(ladder(problem, certify=certify))
 
 
-def swarm(pool: Executor, runs: list[Run], problems: dict[str, Problem], store: Store) -> None:
+def swarm(
+    pool: Executor,
+    runs: list[Run],
+    problems: dict[str, Problem],
+    store: Store,
+    *,
+    allow: Collection[str] = (),
+) -> None:
     """Grade every run that the store does not have yet, and write ``rows.csv`` in the order of the runs.
 
     Stored rows count only if they belong to one of these runs and were made by the same code,
@@ -158,10 +165,22 @@ def swarm(pool: Executor, runs: list[Run], problems: dict[str, Problem], store: 
         By case.
     store : Store
         With the bounds of all cases.
+    allow : collection of str
+        Columns in which the rows of one cell may differ: ``machine``, or none.
+
+    Raises
+    ------
+    InputError
+        If another machine has made part of a cell, unless that is allowed; nothing is run then.
     """
     ladders = store.ladders()
     bounds = {case: bound_of(ladders[case]) for case in problems}
     store.write_plan(runs, problems)
+    if (others := store.other_machines(machine())) and "machine" not in allow:
+        raise InputError(
+            f"{store.folder}: holds rows of another machine ({others[0]}; this is {machine()}), which are not"
+            " pooled unless --machines is given"
+        )
     _tell_what_is_left_out(runs, problems, store)
     store.measure(bounds)
     left = [runs[place] for place in store.left()]

@@ -60,6 +60,7 @@ def compare_all(
     tracks: Tracks = (Track.equal, Track.paper),
     coordinates: SeenIn = (Coordinates.printed,),
     resume: bool = False,
+    machines: bool = False,
 ) -> int:
     """Grade every swarm on every case, audit the papers, and write the report.
 
@@ -82,6 +83,8 @@ def compare_all(
         Multiply every budget by 10, say, or 100.
     resume
         Keep the rows that an interrupted run has finished.
+    machines
+        Let rows of one swarm on one case come from different machines.
     """
     started = time.perf_counter()
     if quick and full:
@@ -115,6 +118,7 @@ def compare_all(
         cases=tuple(chosen),
         seeds=tuple(sorted({run.seed for run in planned})),
         budget=budget_words(budgets),
+        allow=("machine",) if machines else (),
     )
     store.write_settings(settings)
 
@@ -123,7 +127,7 @@ def compare_all(
         climb(pool, problems, store, certify=not quick)
         if not quick:
             audits(pool, sorted({paper for case in chosen if (paper := key_of_paper(case))}), store)
-        swarm(pool, planned, problems, store)
+        swarm(pool, planned, problems, store, allow=settings.allow)
         tabulate_known_times(pool, problems, store)
         if size in PROOFS and cases is None:
             calls = proofs.calls(*PROOFS[size])

@@ -23,7 +23,7 @@ PLANTED: dict[str, tuple[dict[str, Any], str]] = {
     "population": ({"population": 50}, "two populations cannot be pooled: 20 and 50"),
     "code": ({"code": "0" * 12}, "two versions of the swarm's code cannot be pooled: .* and 0{12}"),
     "versions": ({"versions": "numpy=1"}, "two versions of the programs cannot be pooled: .* and numpy=1"),
-    "library": ({"library": "cmaes=0"}, "two versions of the swarm's library cannot be pooled: none and cmaes=0"),
+    "library": ({"library": "cmaes=0"}, "of the swarm's library cannot be pooled: none and cmaes=0"),
     "parameters": ({"parameters": "{}"}, "two sets of parameters cannot be pooled: .* and \\{\\}"),
     "problem": ({"problem": "0" * 12}, "two problems cannot be pooled: .* and 0{12}"),
     "time limit": ({"time_limit": 5.0}, "two time limits cannot be pooled: none and 5.0"),
