@@ -17,6 +17,7 @@ import numpy as np
 
 from compare.audit import audit, load_papers
 from compare.audit.paper import published_text
+from compare.benchmark.below_bound import require_above
 from compare.benchmark.grade import Graded, Run, grade
 from compare.benchmark.known_times import KnownTime, table_of_known_times
 from compare.benchmark.ladders import LadderRecord, ladder_record
@@ -25,10 +26,13 @@ from compare.benchmark.records.rejudge import judged_again
 from compare.benchmark.records.rows import BoundProof, Row, RunKey
 from compare.benchmark.records.store import Store
 from compare.benchmark.statistics import bound_of
+from compare.benchmark.suite.proof import proof_key
 from compare.screen import bar
 from formulations import FAMILIES, Problem, ladder
 
 T = TypeVar("T")
+
+
 _THREADS = ("OMP_NUM_THREADS", "OPENBLAS_NUM_THREADS", "MKL_NUM_THREADS")
 _BATCH = 5  # runs per call: a run takes milliseconds
 _WAITING = 64  # calls handed to the workers at a time, enough to keep all of them busy
@@ -122,13 +126,24 @@ def climb(pool: Executor, problems: dict[str, Problem], store: Store, *, certify
         Whether the bound of the spline family is proved.
     """
     longest_first = sorted(problems.items(), key=lambda item: -item[1].n_segments)
-    calls = [(case, problem, certify) for case, problem in longest_first]
+    known = store.ladders()
+    calls = [
+        (case, problem, certify)
+        for case, problem in longest_first
+        if case not in known or known[case].get("made_of") != _made_of(problem, certify)
+    ]
     for case, found in each(pool, "bounds", _ladder, calls):
         store.write_ladder(case, found)
 
 
 def _ladder(case: str, problem: Problem, certify: bool) -> tuple[str, LadderRecord]:
-    return case, ladder_record(ladder(problem, certify=certify))
+    record = ladder_record(ladder(problem, certify=certify))
+    record["made_of"] = _made_of(problem, certify)
+    return case, record
+
+
+def _made_of(problem: Problem, certify: bool) -> str:
+    return proof_key(problem) + (" all" if certify else " uncertified")
 
 
 def swarm(pool: Executor, runs: list[Run], problems: dict[str, Problem], store: Store) -> None:
@@ -156,8 +171,30 @@ def swarm(pool: Executor, runs: list[Run], problems: dict[str, Problem], store: 
     calls = [([(run, problems[run.case], *bounds[run.case]) for run in batch],) for batch in batches]
     for graded in each(pool, f"swarms (x{_BATCH} runs)", _grades, calls):
         for one in graded:
+            require_above(one.row, ladders[one.run.case])
             store.add(one)
     store.sort(runs)
+
+
+def measured(pool: Executor, runs: list[Run], problems: dict[str, Problem], store: Store) -> list[Row]:
+    """Make runs without keeping them, for an estimate of the time.
+
+    Parameters
+    ----------
+    pool : Executor
+    runs : list of Run
+    problems : dict of str to Problem
+        By case.
+    store : Store
+        With the bounds of all cases.
+
+    Returns
+    -------
+    list of Row
+    """
+    ladders = store.ladders()
+    calls = [([(run, problems[run.case], *bound_of(ladders[run.case]))],) for run in runs]
+    return [one.row for graded in each(pool, "estimate", _grades, calls) for one in graded]
 
 
 def _grades(batch: list[tuple[Run, Problem, float | None, BoundProof]]) -> list[Graded]:
