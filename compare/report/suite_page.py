@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, fields
 from pathlib import Path
 from typing import Any
 
@@ -11,6 +11,7 @@ from compare.benchmark.ladders import LadderRecord
 from compare.benchmark.records.rejudge import judged_again
 from compare.benchmark.records.store import Settings, Store
 from compare.benchmark.statistics import Summary, median, summaries
+from compare.benchmark.suite.features import Features
 from compare.benchmark.suite.instance import Instance, Split
 from compare.files import write_text
 from compare.report.page import environment, faults_of, swarms_in
@@ -149,5 +150,6 @@ def _line(one: Instance, ladder: LadderRecord, described: dict[str, Any]) -> dic
         "bound": lower,
         "proved": upper / lower - 1.0 if upper and lower else None,
         "note": ladder["ladder"]["family_lower"]["note"],
+        **dict.fromkeys((field.name for field in fields(Features)), "–"),
         **described.get("features", {}),
     }
