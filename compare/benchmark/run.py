@@ -17,6 +17,7 @@ import numpy as np
 
 from compare.audit import audit, load_papers
 from compare.audit.paper import published_text
+from compare.benchmark.below_bound import require_above
 from compare.benchmark.grade import Graded, Run, grade
 from compare.benchmark.known_times import KnownTime, table_of_known_times
 from compare.benchmark.ladders import LadderRecord, ladder_record
@@ -31,6 +32,8 @@ from compare.screen import bar
 from formulations import FAMILIES, InputError, Problem, ladder
 
 T = TypeVar("T")
+
+
 _THREADS = ("OMP_NUM_THREADS", "OPENBLAS_NUM_THREADS", "MKL_NUM_THREADS")
 _BATCH = 5  # runs per call: a run takes milliseconds
 _WAITING = 64  # calls handed to the workers at a time, enough to keep all of them busy
@@ -125,7 +128,10 @@ def climb(pool: Executor, problems: dict[str, Problem], store: Store, *, certify
     certify : bool
         Whether the bound of the spline family is proved.
     """
-    keys = {case: proof_key(problem, certify=certify) for case, problem in problems.items()}
+    keys = {
+        case: proof_key(problem, "all" if certify else "uncertified")
+        for case, problem in problems.items()
+    }
     calls = []
     for case, problem in sorted(problems.items(), key=lambda item: -item[1].n_segments):
         known = store.proved(keys[case])
@@ -134,7 +140,8 @@ def climb(pool: Executor, problems: dict[str, Problem], store: Store, *, certify
         else:
             store.write_ladder(case, known)
     for case, found in each(pool, "bounds", _ladder, calls):
-        store.write_ladder(case, found, keys[case])
+        store.write_proof(keys[case], found)
+        store.write_ladder(case, found)
 
 
 def _ladder(case: str, problem: Problem, certify: bool) -> tuple[str, LadderRecord]:
@@ -188,11 +195,34 @@ def swarm(
     calls = [([(run, problems[run.case], *bounds[run.case]) for run in batch],) for batch in batches]
     try:
         for graded in each(pool, f"swarms (x{_BATCH} runs)", _grades, calls):
+            for one in graded:
+                require_above(one.row, ladders[one.run.case])
             store.add_all((one.row, one.traces) for one in graded)  # what arrives together
     except KeyboardInterrupt:
         store.write_csv()
         raise
     store.write_csv()
+
+
+def measured(pool: Executor, runs: list[Run], problems: dict[str, Problem], store: Store) -> list[Row]:
+    """Make runs without keeping them, for an estimate of the time.
+
+    Parameters
+    ----------
+    pool : Executor
+    runs : list of Run
+    problems : dict of str to Problem
+        By case.
+    store : Store
+        With the bounds of all cases.
+
+    Returns
+    -------
+    list of Row
+    """
+    ladders = store.ladders()
+    calls = [([(run, problems[run.case], *bound_of(ladders[run.case]))],) for run in runs]
+    return [one.row for graded in each(pool, "estimate", _grades, calls) for one in graded]
 
 
 def _grades(batch: list[tuple[Run, Problem, float | None, BoundProof]]) -> list[Graded]:

@@ -54,28 +54,36 @@ class StoredFacts:
         except ValueError as error:
             raise InputError(f"{self.file}: {error}") from None
 
-    def write_ladder(self, case: str, ladder: LadderRecord, key: ProofKey | None = None) -> None:
+    def write_ladder(self, case: str, ladder: LadderRecord) -> None:
         """Keep the bounds of a case.
 
         Parameters
         ----------
         case : str
         ladder : LadderRecord
-        key : ProofKey, optional
-            What they depend on; they are found again by it, in later comparisons too.
         """
-        with self.database.writing() as connection:
-            documents.write_document(connection, "ladder", case, ladder)
-            if key is not None:
-                documents.write_proof(connection, key, ladder)
+        self._write("ladder", case, ladder)
 
     def ladders(self) -> dict[str, LadderRecord]:
         """Bounds by case, in alphabetical order."""
         found = self._documents("ladder")
         return {case: checked_ladder_record(data, self.file) for case, data in found.items()}
 
-    def proved(self, key: ProofKey) -> LadderRecord | None:
-        """Return bounds that were found before, by the same code for the same problem.
+    def write_proof(self, key: ProofKey, data: Any) -> None:
+        """Keep what was proved, for later comparisons in this folder and in those it is merged into.
+
+        Parameters
+        ----------
+        key : ProofKey
+            What it depends on.
+        data : Any
+            Ready for strict JSON.
+        """
+        with self.database.writing() as connection:
+            documents.write_proof(connection, key, data)
+
+    def proved(self, key: ProofKey) -> Any:
+        """Return what was proved before, by the same code for the same problem.
 
         Parameters
         ----------
@@ -83,13 +91,13 @@ class StoredFacts:
 
         Returns
         -------
-        LadderRecord or None
+        Any
+            None if nothing was.
         """
         if not self.database.exists():
             return None
         with self._reading() as connection:
-            found = documents.proof(connection, key)
-        return None if found is None else checked_ladder_record(found, self.file)
+            return documents.proof(connection, key)
 
     def write_known_times(self, case: str, lines: list[KnownTime]) -> None:
         """Keep what is known of the task of a case.
