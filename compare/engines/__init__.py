@@ -1,8 +1,9 @@
 """Engines: where the calls of a comparison run. The answers are the same, bit for bit, whatever the engine.
 
-here.py       worker processes on this machine
-cluster.py    the workers of a Dask cluster
-calls.py      `each`: many calls on an engine, under a progress bar; a call whose worker died is made again
+here.py          worker processes on this machine
+cluster.py       the workers of a Dask cluster
+this_process.py  no workers at all
+calls.py         `each`: many calls on an engine, under a progress bar; a call whose worker died is made again
 """
 
 from contextlib import AbstractContextManager
@@ -10,6 +11,7 @@ from contextlib import AbstractContextManager
 from compare.engines.calls import Engine, WorkerLostError, each
 from compare.engines.cluster import on_cluster
 from compare.engines.here import workers
+from compare.engines.this_process import ThisProcess
 
 
 def start(jobs: int, cluster: str | None) -> AbstractContextManager[Engine]:
@@ -29,4 +31,4 @@ def start(jobs: int, cluster: str | None) -> AbstractContextManager[Engine]:
     return workers(jobs) if cluster is None else on_cluster(cluster)
 
 
-__all__ = ["Engine", "WorkerLostError", "each", "on_cluster", "start", "workers"]
+__all__ = ["Engine", "ThisProcess", "WorkerLostError", "each", "on_cluster", "start", "workers"]
