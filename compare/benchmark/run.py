@@ -3,128 +3,60 @@
 from __future__ import annotations
 
 import hashlib
-import multiprocessing
-import os
-import signal
 import sys
 from collections import Counter
-from collections.abc import Callable, Iterable, Iterator
-from concurrent.futures import FIRST_COMPLETED, Executor, Future, ProcessPoolExecutor, wait
-from contextlib import contextmanager
-from typing import Any, TypeVar
+from collections.abc import Collection
+from typing import Any
 
 import numpy as np
 
 from compare.audit import audit, load_papers
 from compare.audit.paper import published_text
+from compare.benchmark.below_bound import require_above
 from compare.benchmark.grade import Graded, Run, grade
 from compare.benchmark.known_times import KnownTime, table_of_known_times
 from compare.benchmark.ladders import LadderRecord, ladder_record
 from compare.benchmark.objective import Objective
-from compare.benchmark.records.provenance import machine, provenance_of, versions_text
+from compare.benchmark.records.mismatch import mismatch
+from compare.benchmark.records.proof_cache import proof_key
+from compare.benchmark.records.provenance import machine, versions_text
 from compare.benchmark.records.rejudge import judged_again
-from compare.benchmark.records.rows import BoundProof, Row, RunKey
+from compare.benchmark.records.rows import BoundProof, Row
 from compare.benchmark.records.store import Store
 from compare.benchmark.statistics import bound_of
-from compare.screen import bar
-from formulations import FAMILIES, Problem, ladder
+from compare.engines import Engine, each
+from formulations import FAMILIES, InputError, Problem, ladder
 
-T = TypeVar("T")
-_THREADS = ("OMP_NUM_THREADS", "OPENBLAS_NUM_THREADS", "MKL_NUM_THREADS")
 _BATCH = 5  # runs per call: a run takes milliseconds
-_WAITING = 64  # calls handed to the workers at a time, enough to keep all of them busy
 
 
-@contextmanager
-def workers(jobs: int) -> Iterator[ProcessPoolExecutor]:
-    """Start worker processes, afresh on every platform; an interrupt drops the calls that wait.
-
-    Parameters
-    ----------
-    jobs : int
-        Number of processes.
-
-    Yields
-    ------
-    ProcessPoolExecutor
-    """
-    context = multiprocessing.get_context("spawn")
-    pool = ProcessPoolExecutor(jobs, mp_context=context, initializer=_forget_the_command_line)
-    # workers inherit that they ignore an interrupt, which is this process's to handle, and that each
-    # of them has one thread: linear algebra with threads of its own would only wait for the others
-    before = signal.signal(signal.SIGINT, signal.SIG_IGN)
-    unset = [name for name in _THREADS if name not in os.environ]
-    os.environ.update(dict.fromkeys(unset, "1"))
-    try:
-        for _ in range(jobs):
-            pool.submit(os.getpid)
-    finally:
-        signal.signal(signal.SIGINT, before)
-        for name in unset:
-            del os.environ[name]
-    try:
-        yield pool
-    except BaseException:
-        pool.shutdown(wait=False, cancel_futures=True)
-        raise
-    pool.shutdown()
-
-
-def _forget_the_command_line() -> None:
-    """Drop the options: processes of plug-ins inherit them, and must not learn where the report is."""
-    del sys.argv[1:]
-
-
-def each(
-    pool: Executor,
-    title: str,
-    function: Callable[..., T],
-    calls: Iterable[tuple[Any, ...]],
-) -> Iterator[T]:
-    """Call a function in the workers, under a progress bar with the time left.
-
-    Parameters
-    ----------
-    pool : Executor
-    title : str
-        Words beside the bar.
-    function : callable
-        A function of a module, so that workers can import it.
-    calls : iterable of tuple
-        Its arguments, call by call.
-
-    Yields
-    ------
-    object
-        What the function returns, as the calls end.
-    """
-    waiting = list(calls)[::-1]
-    with bar(title, len(waiting)) as advance:
-        running: set[Future[T]] = set()
-        while waiting or running:
-            while waiting and len(running) < _WAITING:
-                running.add(pool.submit(function, *waiting.pop()))
-            done, running = wait(running, return_when=FIRST_COMPLETED)
-            for future in done:
-                advance()
-                yield future.result()
-
-
-def climb(pool: Executor, problems: dict[str, Problem], store: Store, *, certify: bool = True) -> None:
+def climb(pool: Engine, problems: dict[str, Problem], store: Store, *, certify: bool = True) -> None:
     """Find every bound of every case and write it to the store; the longest task first.
 
+    What this code has proved before, in this store or one that was merged into it, is not proved again.
+
     Parameters
     ----------
-    pool : Executor
+    pool : Engine
     problems : dict of str to Problem
         By case.
     store : Store
     certify : bool
         Whether the bound of the spline family is proved.
     """
-    longest_first = sorted(problems.items(), key=lambda item: -item[1].n_segments)
-    calls = [(case, problem, certify) for case, problem in longest_first]
+    keys = {
+        case: proof_key(problem, "all" if certify else "uncertified")
+        for case, problem in problems.items()
+    }
+    calls = []
+    for case, problem in sorted(problems.items(), key=lambda item: -item[1].n_segments):
+        known = store.proved(keys[case])
+        if known is None:
+            calls.append((case, problem, certify))
+        else:
+            store.write_ladder(case, known)
     for case, found in each(pool, "bounds", _ladder, calls):
+        store.write_proof(keys[case], found)
         store.write_ladder(case, found)
 
 
@@ -132,89 +64,111 @@ def _ladder(case: str, problem: Problem, certify: bool) -> tuple[str, LadderReco
     return case, ladder_record(ladder(problem, certify=certify))
 
 
-def swarm(pool: Executor, runs: list[Run], problems: dict[str, Problem], store: Store) -> None:
-    """Grade every run that the store does not have yet; the rows end in the order of the runs.
+def swarm(
+    pool: Engine,
+    runs: list[Run],
+    problems: dict[str, Problem],
+    store: Store,
+    *,
+    allow: Collection[str] = (),
+) -> None:
+    """Grade every run that the store does not have yet, and write ``rows.csv`` in the order of the runs.
 
     Stored rows count only if they belong to one of these runs and were made by the same code,
-    parameters, versions and problem. The others are set aside, and a line on stderr says how many and
-    why. The gaps of the rows that stay are measured against the bounds that the store has now.
+    parameters, versions and problem. The others stay in the store and are not read; a line on stderr
+    says how many and why. The gaps of the rows that stay are measured against the bounds that the store
+    has now.
 
     Parameters
     ----------
-    pool : Executor
+    pool : Engine
     runs : list of Run
         The plan.
     problems : dict of str to Problem
         By case.
     store : Store
         With the bounds of all cases.
+    allow : collection of str
+        Columns in which the rows of one cell may differ: ``machine``, or none.
+
+    Raises
+    ------
+    InputError
+        If another machine has made part of a cell, unless that is allowed; nothing is run then.
     """
     ladders = store.ladders()
     bounds = {case: bound_of(ladders[case]) for case in problems}
-    finished = _kept(runs, problems, bounds, store)
-    left = [run for run in runs if run.key not in finished]
+    store.write_plan(runs, problems)
+    if (others := store.other_machines(machine())) and "machine" not in allow:
+        raise InputError(
+            f"{store.folder}: holds rows of another machine ({others[0]}; this is {machine()}), which are not"
+            " pooled unless --machines is given"
+        )
+    _tell_what_is_left_out(runs, problems, store)
+    store.measure(bounds)
+    left = [runs[place] for place in store.left()]
     batches = [left[i : i + _BATCH] for i in range(0, len(left), _BATCH)]
     calls = [([(run, problems[run.case], *bounds[run.case]) for run in batch],) for batch in batches]
-    for graded in each(pool, f"swarms (x{_BATCH} runs)", _grades, calls):
-        for one in graded:
-            store.add(one)
-    store.sort(runs)
+    try:
+        for graded in each(pool, f"swarms (x{_BATCH} runs)", _grades, calls):
+            for one in graded:
+                require_above(one.row, ladders[one.run.case])
+            store.add_all((one.row, one.traces) for one in graded)  # what arrives together
+    except KeyboardInterrupt:
+        store.write_csv()
+        raise
+    store.write_csv()
+
+
+def measured(pool: Engine, runs: list[Run], problems: dict[str, Problem], store: Store) -> list[Row]:
+    """Make runs without keeping them, for an estimate of the time.
+
+    Parameters
+    ----------
+    pool : Engine
+    runs : list of Run
+    problems : dict of str to Problem
+        By case.
+    store : Store
+        With the bounds of all cases.
+
+    Returns
+    -------
+    list of Row
+    """
+    ladders = store.ladders()
+    calls = [([(run, problems[run.case], *bound_of(ladders[run.case]))],) for run in runs]
+    return [one.row for graded in each(pool, "estimate", _grades, calls) for one in graded]
 
 
 def _grades(batch: list[tuple[Run, Problem, float | None, BoundProof]]) -> list[Graded]:
     return [grade(*one) for one in batch]
 
 
-def _kept(
-    runs: list[Run],
-    problems: dict[str, Problem],
-    bounds: dict[str, tuple[float | None, BoundProof]],
-    store: Store,
-) -> set[RunKey]:
-    """Set aside what the plan cannot use of the stored rows; the keys of the others."""
-    rows = store.rows()
-    if not rows:
-        return set()
-    plan = {run.key: run for run in runs}
-    kept: dict[RunKey, Row] = {}
+def _tell_what_is_left_out(runs: list[Run], problems: dict[str, Problem], store: Store) -> None:
+    """Say on stderr how many stored rows the plan cannot use, and why."""
+    outside = store.outside()
+    if not outside:
+        return
     reasons: Counter[str] = Counter()
-    for row in rows:
-        reason = "a second row of its run" if row.key in kept else _mismatch(row, plan, problems)
-        if reason is None:
-            kept[row.key] = row.measured_against(*bounds[row.case])
-        else:
-            reasons[reason] += 1
-    store.keep(list(kept.values()))
-    if reasons:
-        told = ", ".join(f"{count} with {reason}" for reason, count in reasons.most_common())
-        print(
-            f"resume: {len(kept)} of {len(rows)} stored rows fit the plan; {reasons.total()} do not"
-            f" and are set aside in {store.set_aside_file.name} ({told})",
-            file=sys.stderr,
-            flush=True,
-        )
-    return set(kept)
+    for maker, count in outside:
+        reasons[mismatch(maker, runs, problems)] += count
+    kept = len(runs) - len(store.left())
+    told = ", ".join(f"{count} with {reason}" for reason, count in reasons.most_common())
+    print(
+        f"resume: {kept} of {kept + reasons.total()} stored rows fit the plan; {reasons.total()} do not"
+        f" and are left out ({told})",
+        file=sys.stderr,
+        flush=True,
+    )
 
 
-def _mismatch(row: Row, plan: dict[RunKey, Run], problems: dict[str, Problem]) -> str | None:
-    """Why a stored row is none of the plan; None if it is one of it."""
-    run = plan.get(row.key)
-    if run is None:
-        same = [key for key in plan if key[:3] == row.key[:3]]
-        if not same:
-            return "a case, coding or swarm that is not asked for"
-        sizes = {(key.budget, key.population) for key in same}
-        return "a seed that is not asked for" if row.key[4:] in sizes else "another budget"
-    problem = problems[run.case]
-    return provenance_of(run.swarm, problem, run.population, run.time_limit).difference(row)
-
-
-def audits(pool: Executor, papers: list[str], store: Store) -> None:
+def audits(pool: Engine, papers: list[str], store: Store) -> None:
     """Audit every paper whose audit the store does not have yet; the longest first.
 
     Parameters
     ----------
-    pool : Executor
+    pool : Engine
     papers : list of str
         Names of shipped papers.
     store : Store
@@ -247,20 +201,21 @@ def _audit(name: str) -> tuple[str, list[dict[str, Any]]]:
     return name, [audit(paper).to_json() for paper in load_papers(name)]
 
 
-def tabulate_known_times(pool: Executor, problems: dict[str, Problem], store: Store) -> None:
+def tabulate_known_times(pool: Engine, problems: dict[str, Problem], store: Store) -> None:
     """Write what is known of the task of each case, from the bounds and rows of the store.
 
     Parameters
     ----------
-    pool : Executor
+    pool : Engine
     problems : dict of str to Problem
         By case.
     store : Store
     """
     ladders = store.ladders()
     rows = judged_again(store.rows(), problems, ladders)
+    allow = store.settings().allow
     calls = [
-        (case, problem, ladders[case], [row for row in rows if row.case == case])
+        (case, problem, ladders[case], [row for row in rows if row.case == case], allow)
         for case, problem in problems.items()
     ]
     for case, lines in each(pool, "known times", _known_times, calls):
@@ -268,9 +223,9 @@ def tabulate_known_times(pool: Executor, problems: dict[str, Problem], store: St
 
 
 def _known_times(
-    case: str, problem: Problem, ladder: LadderRecord, rows: list[Row]
+    case: str, problem: Problem, ladder: LadderRecord, rows: list[Row], allow: tuple[str, ...]
 ) -> tuple[str, list[KnownTime]]:
-    return case, table_of_known_times(problem, ladder, rows)
+    return case, table_of_known_times(problem, ladder, rows, allow=allow)
 
 
 def warm_up(problems: dict[str, Problem]) -> None:

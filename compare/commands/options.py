@@ -229,6 +229,20 @@ def listed(names: Callable[[], Iterable[str]], words: str, name: str) -> Paramet
     )
 
 
+def _words_of(enum: str, name: str, words: str) -> Parameter:
+    """The parameter of an option that is a comma-separated list of members of an enum of the protocol."""
+
+    def read(kind: Any, tokens: Sequence[Token]) -> tuple[Any, ...]:
+        from compare.benchmark import protocol
+
+        members = getattr(protocol, enum)
+        return tuple(members(value) for value in several(tokens[0].value, [str(m) for m in members]))
+
+    return Parameter(
+        name=name, help=words, converter=read, n_tokens=1, metavar="NAME,..", show_default=_joined
+    )
+
+
 def _read_swarms(kind: Any, tokens: Sequence[Token]) -> tuple[str, ...]:
     return found_swarms(tokens[0].value)
 
@@ -242,11 +256,41 @@ _OWN = (
     " module:function"
 )
 
+
+def _read_cases(kind: Any, tokens: Sequence[Token]) -> tuple[str, ...]:
+    from formulations import CASES
+
+    wanted = [name.strip() for name in tokens[0].value.split(",") if name.strip()]
+    if not wanted:
+        raise ValueError(f"none given (known: {', '.join(CASES)})")
+    return tuple(
+        dict.fromkeys(
+            name if name.endswith(".toml") or Path(name).is_file() else known(name, CASES)
+            for name in wanted
+        )
+    )
+
+
 Cases = Annotated[tuple[str, ...] | None, listed(_cases, "Shipped cases; all if left out.", "--cases")]
+CasesOrFiles = Annotated[
+    tuple[str, ...] | None,
+    Parameter(name="--cases", help="Shipped cases, and problem files of your own (mine.toml); all cases if left"
+              " out.", converter=_read_cases, n_tokens=1, metavar="NAME,..", show_default=_joined),
+]  # fmt: skip
 Codings = Annotated[
     tuple[str, ...] | None,
     listed(_codings, "How a swarm's vector becomes a motion: published, shared, stretched; all if left out.",
            "--codings"),
+]  # fmt: skip
+Tracks = Annotated[
+    tuple[Any, ...] | None,
+    _words_of("Track", "--tracks", "Rules: equal (the joints of the published coding share the budget),"
+              " paper (the papers' own: each of them has all of it)."),
+]  # fmt: skip
+SeenIn = Annotated[
+    tuple[Any, ...],
+    _words_of("Coordinates", "--coordinates", "How swarms see the durations: printed, mirrored,"
+              " offset (far away from zero)."),
 ]  # fmt: skip
 Swarms = Annotated[
     tuple[str, ...] | None,
@@ -264,6 +308,11 @@ Jobs = Annotated[
     int,
     Parameter(name="--jobs", validator=positive, help="Worker processes."),
 ]
+OnCluster = Annotated[
+    str | None,
+    Parameter(name="--cluster", metavar="ADDRESS",
+              help="Run on the workers of this Dask scheduler, tcp://HOST:PORT, in place of --jobs."),
+]  # fmt: skip
 Seeds = Annotated[int, Parameter(name="--seeds", validator=positive, help="Number of seeds.")]
 Seed = Annotated[
     int, Parameter(name="--seed", validator=not_negative, help="Seed of the random numbers.")

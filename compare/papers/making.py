@@ -2,12 +2,10 @@
 
 from __future__ import annotations
 
-import multiprocessing
 from collections.abc import Iterator, Sequence
-from concurrent.futures.process import BrokenProcessPool
 from pathlib import Path
 
-from compare.benchmark.run import each, workers
+from compare.engines import WorkerLostError, each, workers
 from compare.papers import ITEMS, page, shelf
 from compare.papers.item import Item
 from compare.papers.shelf import Made
@@ -92,34 +90,17 @@ def make(calls: list[Call], jobs: int) -> Iterator[tuple[str, Item, Made]]:
     tuple
         Paper, item, and what was made.
     """
-    left = {(paper, item.key): (folder, paper, item, full) for folder, paper, item, full in calls}
-    if not left:
-        return
-    try:
-        with workers(min(jobs, len(left))) as pool:
-            for paper, item, made in each(pool, "papers", shelf.make, calls):
+    left = {(call[1], call[2].key): call for call in calls}
+    while left:
+        with workers(min(jobs, len(left))) as engine:
+            try:
+                for paper, item, made in each(engine, "papers", shelf.make, list(left.values())):
+                    del left[paper, item.key]
+                    yield paper, item, made
+            except WorkerLostError as lost:
+                _, paper, item, _ = lost.call
                 del left[paper, item.key]
-                yield paper, item, made
-    except BrokenProcessPool:  # one item ended the whole pool; one after the other, it shows which
-        yield from _one_by_one(list(left.values()))
-    except KeyboardInterrupt:
-        for worker in multiprocessing.active_children():
-            worker.terminate()  # what it makes may take minutes more
-        raise
-
-
-def _one_by_one(calls: list[Call]) -> Iterator[tuple[str, Item, Made]]:
-    while calls:
-        try:
-            with workers(1) as pool:
-                while calls:
-                    made = pool.submit(shelf.make, *calls[0]).result()
-                    calls = calls[1:]
-                    yield made
-        except BrokenProcessPool:
-            _, paper, item, _ = calls[0]
-            yield paper, item, shelf.died(*calls[0])
-            calls = calls[1:]
+                yield paper, item, shelf.died(*lost.call)
 
 
 def draw(folder: Path, chosen: dict[str, list[Item]], jobs: int) -> list[str]:

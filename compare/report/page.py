@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import base64
 import json
-from concurrent.futures import Executor
+from collections.abc import Iterable
 from dataclasses import dataclass
 from pathlib import Path
 from typing import Any
@@ -15,11 +15,19 @@ from compare.audit import chapter
 from compare.benchmark.known_times import key_of_paper
 from compare.benchmark.ladders import LadderRecord
 from compare.benchmark.objective import CODINGS
+from compare.benchmark.protocol import Coordinates, Track
 from compare.benchmark.records.rejudge import judged_again
 from compare.benchmark.records.rows import Row, RowStatus
 from compare.benchmark.records.store import Settings, Store
-from compare.benchmark.run import each
-from compare.benchmark.statistics import Summary, best_claim, best_row, bound_of, summaries
+from compare.benchmark.statistics import (
+    Summary,
+    as_papers_run,
+    best_claim,
+    best_row,
+    bound_of,
+    summaries,
+)
+from compare.engines import Engine, each
 from compare.files import write_text
 from compare.report.figures.case import draw_case
 from compare.report.papers_at_a_glance import papers_at_a_glance
@@ -33,6 +41,12 @@ FIGURES = {
     "motion": "The best motion with its limits, and the best claim in the papers' coding (red).",
     "split": "Where the time goes, from the certified bound on every motion up to the motion of a swarm.",
     "convergence": "Gap against evaluations.",
+}
+
+TRACKS: dict[Track, str] = {
+    Track.equal: "",
+    Track.paper: "by the papers' own protocol each joint has the whole budget for itself",
+    Track.tuned: "constants tuned on the open instances",
 }
 
 LIMITATIONS = [
@@ -53,12 +67,12 @@ LIMITATIONS = [
 ]
 
 
-def render(pool: Executor, folder: Path, problems: dict[str, Problem], settings: Settings) -> Path:
+def render(pool: Engine, folder: Path, problems: dict[str, Problem], settings: Settings) -> Path:
     """Draw all figures and write index.html and report.md, from the store alone.
 
     Parameters
     ----------
-    pool : Executor
+    pool : Engine
     folder : Path
         Folder of the store and of the report.
     problems : dict of str to Problem
@@ -72,13 +86,13 @@ def render(pool: Executor, folder: Path, problems: dict[str, Problem], settings:
         The page.
     """
     store = Store(folder)
-    ladders, traces = store.ladders(), store.traces()
+    ladders = store.ladders()
     rows = judged_again(store.rows(), problems, ladders)
     calls = []
     for case, problem in problems.items():
         mine = [row for row in rows if row.case == case]
         held = {r.key for r in mine if r.status is not RowStatus.contradicted}
-        kept = {key: found for key, found in traces.items() if key in held}
+        kept = {key: found for key, found in store.traces(case) if key in held}
         calls.append((folder, case, problem, ladders[case], mine, kept))
     for _ in each(pool, "figures", draw_case, calls):
         pass
@@ -175,19 +189,14 @@ def _context(
     settings: Settings,
 ) -> dict[str, Any]:
     """What the templates say of the swarms."""
-    found = summaries(rows)
+    found = summaries(rows, allow=settings.allow)
     cases = [case for case in problems if case in ladders]
-    codings = [c for c in CODINGS if any(row.coding == c for row in rows)]
-    ran = {row.swarm: row for row in rows}
-    order = [name for name in ALGORITHMS if name in ran] + [
-        name for name in ran if name not in ALGORITHMS
-    ]
-    swarms = {name: _Swarm.of(ran[name]) for name in order}
+    swarms = swarms_in(rows)
     contradicted = [row for row in rows if row.status is RowStatus.contradicted]
     return {
         "cases": cases,
         "problems": problems,
-        "codings": {c: CODINGS[c] for c in codings},
+        "codings": {row.variant: _rules(row) for row in rows},
         "swarms": swarms,
         "groups": {
             title: members
@@ -201,13 +210,23 @@ def _context(
         "bounds": {case: bound_of(ladders[case]) for case in cases},
         "headlines": [_headline(case, ladders[case], rows, found) for case in cases],
         "rows": len(rows),
-        "faults": _faults(rows),
+        "faults": faults_of(rows),
         "contradicted": contradicted,
         "settings": settings,
         "machine": rows[0].machine if rows else "",
         "versions": rows[0].versions if rows else "",
         "limitations": LIMITATIONS,
     }
+
+
+def _rules(row: Row) -> str:
+    """What the variant of a row means."""
+    said = (
+        CODINGS[row.coding],
+        TRACKS[row.track],
+        "" if row.coordinates is Coordinates.printed else f"coordinates {row.coordinates}",
+    )
+    return "; ".join(part for part in said if part)
 
 
 @dataclass(frozen=True)
@@ -233,6 +252,24 @@ class _Swarm:
         return _Swarm(title, place, _parameters(row), library, apart)
 
 
+def swarms_in(rows: Iterable[Row]) -> dict[str, _Swarm]:
+    """Describe the swarms of rows.
+
+    Parameters
+    ----------
+    rows : iterable of Row
+
+    Returns
+    -------
+    dict of str to object
+        By name, in the order of tables; each has a title, a source, parameters and a group.
+    """
+    ran = {row.swarm: row for row in rows}
+    order = [name for name in ALGORITHMS if name in ran]
+    order += [name for name in ran if name not in ALGORITHMS]
+    return {name: _Swarm.of(ran[name]) for name in order}
+
+
 def _parameters(row: Row) -> dict[str, Any]:
     """Parameters that a row states; none if they are not what `grade` writes."""
     try:
@@ -250,19 +287,30 @@ def _headline(
 ) -> dict[str, Any]:
     """One line per case: the optimum, the papers' best claim and what is left of it."""
     mine = [row for row in rows if row.case == case]
-    published = [s for (c, coding, _), s in found.items() if c == case and coding == "published"]
+    run = {row.variant for row in as_papers_run(mine)}
+    published = [s for (c, variant, _), s in found.items() if c == case and variant in run]
     return {
         "case": case,
         "optimum": ladder["ladder"]["family"]["seconds"],
         "claim": best_claim(mine),
-        "stretched": best_row(mine, coding="stretched"),
+        "stretched": best_row(mine, variant="stretched"),
         "breaking": sum(s.breaking for s in published),
         "published": sum(s.seeds for s in published),
     }
 
 
-def _faults(rows: list[Row]) -> list[tuple[str, int, str]]:
-    """Every status but ok, and how often it stands; with one of its reasons."""
+def faults_of(rows: Iterable[Row]) -> list[tuple[str, int, str]]:
+    """Count every status but ok.
+
+    Parameters
+    ----------
+    rows : iterable of Row
+
+    Returns
+    -------
+    list of (str, int, str)
+        Status, how often it stands, and one of its reasons.
+    """
     found: dict[RowStatus, list[Row]] = {}
     for row in rows:
         if row.status is not RowStatus.ok:

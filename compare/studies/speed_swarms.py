@@ -8,7 +8,6 @@ from __future__ import annotations
 
 import time
 from collections.abc import Callable
-from concurrent.futures import ProcessPoolExecutor
 from contextlib import nullcontext
 from dataclasses import dataclass
 from typing import Any
@@ -16,7 +15,7 @@ from typing import Any
 import numpy as np
 
 from compare.benchmark.objective import Objective, search_box
-from compare.benchmark.run import workers
+from compare.engines import Engine, workers
 from compare.screen import bar, table
 from compare.studies.speed_mealpy import installed
 from compare.studies.study import Study
@@ -167,7 +166,7 @@ def _timed_moves(function: Search, spent: list[float], who: int) -> Search:
     return timed
 
 
-def _rates(pool: ProcessPoolExecutor, jobs: int, objective: Objective, name: str) -> Array:
+def _rates(pool: Engine, jobs: int, objective: Objective, name: str) -> Array:
     """Evaluations per second of so many processes that start together: of the processor, by the clock."""
     start = time.time() + 0.02
     waiting = [pool.submit(_slice, objective, name, start) for _ in range(jobs)]

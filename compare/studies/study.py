@@ -18,9 +18,7 @@ import io
 import json
 import math
 from collections.abc import Callable, Iterable, Iterator, Sequence
-from concurrent.futures import ProcessPoolExecutor
 from dataclasses import asdict, dataclass, fields
-from functools import cache
 from pathlib import Path
 from typing import Any, ClassVar, Generic, Protocol, TypeVar, get_type_hints
 
@@ -29,9 +27,10 @@ import matplotlib.pyplot as plt
 from matplotlib.figure import Figure
 
 from compare.benchmark.records.provenance import machine, problem_digest, versions_text
-from compare.benchmark.run import each
+from compare.engines import Engine, each
 from compare.files import write_json, write_text
 from compare.screen import bar
+from compare.sources import source_digest
 from formulations import InputError, Problem, family_optimum
 
 
@@ -43,7 +42,6 @@ class IsDataclass(Protocol):
 
 R = TypeVar("R", bound=IsDataclass)
 Call = tuple[Any, ...]
-_PACKAGES = ("formulations", "metaheuristics", "compare")
 
 # studies that the report shows if they are there: title, what the picture says
 STUDIES = {
@@ -126,7 +124,7 @@ def run(
     calls: Sequence[Call],
     *,
     folder: Path | None = None,
-    pool: ProcessPoolExecutor | None = None,
+    pool: Engine | None = None,
     resume: bool = False,
 ) -> Findings[R]:
     """Compute all rows of a study, and write its files.
@@ -139,7 +137,7 @@ def run(
         The arguments of each call of ``study.compute``.
     folder : Path, optional
         Where the files go; nothing is written if left out.
-    pool : ProcessPoolExecutor, optional
+    pool : Engine, optional
         The workers; if left out, the calls run one after the other in this process, as a measurement
         of time needs it.
     resume : bool
@@ -192,7 +190,7 @@ def optima_of(problems: dict[str, Problem]) -> dict[str, float]:
 
 
 def _answers(
-    study: Study[R], calls: Sequence[Call], pool: ProcessPoolExecutor | None
+    study: Study[R], calls: Sequence[Call], pool: Engine | None
 ) -> Iterator[tuple[int, list[R]]]:
     """Rows by the number of their call, as the calls end."""
     if pool is not None:
@@ -231,16 +229,8 @@ def _facts(summary: Any) -> dict[str, Any]:
 
 def _key(study: Study[Any], call: Call) -> str:
     """What tells a call from another, with the versions and the code that it ran with."""
-    text = "\n".join([*map(_plain, (study.compute, *call)), versions_text(), _code()])
+    text = "\n".join([*map(_plain, (study.compute, *call)), versions_text(), source_digest()])
     return hashlib.sha256(text.encode()).hexdigest()[:16]
-
-
-@cache
-def _code() -> str:
-    """Digest of the source of the three packages: rows of other code are not mixed in."""
-    root = Path(__file__).parents[2]
-    files = [path for name in _PACKAGES for path in sorted((root / name).rglob("*.py"))]
-    return hashlib.sha256(b"".join(path.read_bytes() for path in files)).hexdigest()
 
 
 def _plain(part: Any) -> str:

@@ -5,8 +5,8 @@ from __future__ import annotations
 from pathlib import Path
 from typing import Any
 
-from compare.benchmark.run import workers
 from compare.commands import DONE
+from compare.engines import workers
 from compare.files import output_folder
 from compare.screen import show
 from compare.studies.study import Call, Study, run

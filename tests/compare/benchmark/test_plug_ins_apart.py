@@ -10,7 +10,8 @@ import pytest
 from compare.benchmark.grade import Run, grade
 from compare.benchmark.records.rows import RowStatus
 from compare.benchmark.records.store import Store
-from compare.benchmark.run import climb, swarm, workers
+from compare.benchmark.run import climb, swarm
+from compare.engines import workers
 from formulations import load
 from metaheuristics.entry import TIME_LIMIT
 

@@ -14,7 +14,7 @@ import numpy as np
 import pytest
 from matplotlib.figure import Figure
 
-from compare.benchmark.run import workers
+from compare.engines import workers
 from compare.studies import study as module
 from compare.studies.study import Study, run
 from formulations import InputError, Limits, Problem

@@ -1,0 +1,51 @@
+"""The certified bound, verified optimum and features of an instance: proved once, then read from the store."""
+
+from __future__ import annotations
+
+from dataclasses import asdict
+from typing import Any
+
+from compare.benchmark.ladders import LadderRecord, ladder_record
+from compare.benchmark.suite.features import features_of
+from formulations import Problem, ladder
+from formulations.proofs.family import PROVERS
+
+TIME_LIMIT = 300.0  # s per instance; each takes a few seconds of a core that it has for itself
+
+
+def rungs_of(problem: Problem) -> tuple[str, ...]:
+    """Return the bounds that grading needs.
+
+    Parameters
+    ----------
+    problem : Problem
+
+    Returns
+    -------
+    tuple of str
+        Keys of ``RUNGS``. Of a family without a prover the bound of every motion is the best there is.
+    """
+    both = ("family", "family_lower")
+    return both if problem.family in PROVERS else (*both, "free_form_lower")
+
+
+def prove(name: str, problem: Problem) -> tuple[str, LadderRecord, dict[str, Any]]:
+    """Find the optimum of an instance, prove its bound, and describe it.
+
+    Parameters
+    ----------
+    name : str
+    problem : Problem
+
+    Returns
+    -------
+    name : str
+    record : LadderRecord
+        Its rungs say how each proof ended.
+    features : dict
+        Those of `Features`; empty if there is no verified optimum.
+    """
+    found = ladder(problem, rungs=rungs_of(problem), time_limit=TIME_LIMIT)
+    record = ladder_record(found)
+    features = {} if found.optimum is None else asdict(features_of(problem, found.optimum))
+    return name, record, features
