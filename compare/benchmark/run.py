@@ -94,7 +94,8 @@ def swarm(
     Raises
     ------
     InputError
-        If another machine has made part of a cell, unless that is allowed; nothing is run then.
+        If another machine has made part of a cell, unless that is allowed; nothing is run then. Also if
+        workers have other code or versions than this process.
     """
     ladders = store.ladders()
     bounds = {case: bound_of(ladders[case]) for case in problems}
@@ -106,18 +107,25 @@ def swarm(
         )
     _tell_what_is_left_out(runs, problems, store)
     store.measure(bounds)
-    left = [runs[place] for place in store.left()]
-    batches = [left[i : i + _BATCH] for i in range(0, len(left), _BATCH)]
-    calls = [([(run, problems[run.case], *bounds[run.case]) for run in batch],) for batch in batches]
+    left = store.left()
+    batches = range(0, len(left), _BATCH)
+    # one by one, so that memory does not hold every call
+    calls = (
+        ([(runs[k], problems[runs[k].case], *bounds[runs[k].case]) for k in left[i : i + _BATCH]],)
+        for i in batches
+    )
     try:
-        for graded in each(pool, f"swarms (x{_BATCH} runs)", _grades, calls):
+        for graded in each(pool, f"swarms (x{_BATCH} runs)", _grades, calls, total=len(batches)):
             for one in graded:
                 require_above(one.row, ladders[one.run.case])
             store.add_all((one.row, one.traces) for one in graded)  # what arrives together
-    except KeyboardInterrupt:
+    finally:
         store.write_csv()
-        raise
-    store.write_csv()
+    if foreign := store.left():
+        raise InputError(
+            f"{len(foreign)} of {len(runs)} runs were made by workers with other code or versions than here;"
+            " they are stored, and not read"
+        )
 
 
 def measured(pool: Engine, runs: list[Run], problems: dict[str, Problem], store: Store) -> list[Row]:

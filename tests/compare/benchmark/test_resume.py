@@ -161,7 +161,7 @@ def test_kept_rows_are_measured_against_the_bound_that_the_store_has_now(
 def test_an_interrupt_leaves_the_table_of_what_was_finished(
     pool: Engine, store: Store, monkeypatch: pytest.MonkeyPatch
 ) -> None:
-    def interrupted(*args: object) -> Iterator[list[Graded]]:
+    def interrupted(*args: object, **more: object) -> Iterator[list[Graded]]:
         yield [grade(run, PROBLEMS["cobot"], 3.3496) for run in plan()[1:3]]
         raise KeyboardInterrupt
 
@@ -276,3 +276,17 @@ def test_a_changed_line_of_a_plug_in_or_of_a_module_beside_it_changes_its_digest
     mine.write_text(mine.read_text() + "\n")
     assert digest() != second
     code_digest.cache_clear()
+
+
+def test_rows_of_a_worker_with_other_code_are_refused(
+    store: Store, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    def foreign(batch: list[tuple[Run, object, float, str]]) -> list[Graded]:
+        found = [grade(*one) for one in batch]  # type: ignore[arg-type]
+        return [replace(one, row=replace(one.row, code="0123456789ab")) for one in found]
+
+    monkeypatch.setattr(run_module, "_grades", foreign)
+    with pytest.raises(InputError, match=r"^4 of 4 runs were made by workers with other code"):
+        swarm(ThisProcess(), plan(), PROBLEMS, store)
+    assert store.rows() == []
+    assert len(store.rows(every=True)) == 4
