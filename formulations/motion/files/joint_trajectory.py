@@ -193,11 +193,12 @@ class _Message:
             seconds = next(parts)[:, 0]
             if nanoseconds is not None:
                 nanoseconds = next(parts)[:, 0]
-                if not (np.array_equal(np.rint(seconds), seconds) and (nanoseconds % 1.0 == 0.0).all()):
+                if not all(np.array_equal(np.rint(part), part) for part in (seconds, nanoseconds)):
                     return None
             values = tuple(None if value is None else next(parts) for value in values)
         if nanoseconds is not None:
-            seconds = (seconds * 1e9 + nanoseconds) / 1e9  # correctly rounded: both are whole
+            with np.errstate(over="ignore"):  # an infinite time is refused with the others
+                seconds = (seconds * 1e9 + nanoseconds) / 1e9  # correctly rounded: both are whole
         positions, velocities, accelerations = values
         assert positions is not None
         return MotionPoints(seconds, positions, velocities, accelerations, named(self.names, "joint_"))

@@ -7,6 +7,7 @@ The arrays are ``time`` (n_points,), ``position``, ``velocity``, ``acceleration`
 from __future__ import annotations
 
 import io
+import tokenize
 import zipfile
 import zlib
 from typing import Any
@@ -117,7 +118,7 @@ def _arrays(data: bytes, file: str) -> dict[str, Any]:
         raise
     except (zipfile.BadZipFile, zlib.error, EOFError, OSError, NotImplementedError, RuntimeError,
             ValueError, SyntaxError, TypeError, OverflowError, RecursionError, MemoryError,
-            UnicodeError, LookupError) as error:  # fmt: skip
+            UnicodeError, LookupError, tokenize.TokenError) as error:  # fmt: skip
         raise InputError(f"{file}: not an NPZ file: {type(error).__name__}: {error}") from None
     return arrays
 
