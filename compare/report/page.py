@@ -7,7 +7,7 @@ import json
 from concurrent.futures import Executor
 from dataclasses import dataclass
 from pathlib import Path
-from typing import Any
+from typing import Any, TypedDict
 
 import jinja2
 
@@ -21,6 +21,7 @@ from compare.benchmark.records.store import Settings, Store
 from compare.benchmark.run import each
 from compare.benchmark.statistics import Summary, best_claim, best_row, bound_of, summaries
 from compare.files import write_text
+from compare.plain_data import read_json
 from compare.report.figures.case import draw_case
 from compare.report.papers_at_a_glance import papers_at_a_glance
 from compare.studies.study import STUDIES
@@ -88,7 +89,7 @@ def render(pool: Executor, folder: Path, problems: dict[str, Problem], settings:
     }
     context |= papers_context(store, folder, context["cases"])
     bias = folder / "bias.json"
-    context["bias"] = json.loads(bias.read_text("utf-8"))["summary"] if bias.exists() else {}
+    context["bias"] = read_json(bias, _Bias, "a study")["summary"] if bias.exists() else {}
     context["figures"] = {
         case: {name: (f"figures/{case}-{name}", caption) for name, caption in FIGURES.items()}
         for case in problems
@@ -233,11 +234,17 @@ class _Swarm:
         return _Swarm(title, place, _parameters(row), library, apart)
 
 
+class _Bias(TypedDict):
+    """What the report shows of a study of bias: by swarm and problem."""
+
+    summary: dict[str, dict[str, float | None]]
+
+
 def _parameters(row: Row) -> dict[str, Any]:
     """Parameters that a row states; none if they are not what `grade` writes."""
     try:
         found = json.loads(row.parameters)
-    except ValueError:
+    except (ValueError, RecursionError):
         return {}
     return found if isinstance(found, dict) else {}
 

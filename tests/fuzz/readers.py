@@ -10,17 +10,18 @@ from __future__ import annotations
 import dataclasses
 from collections.abc import Callable
 from dataclasses import dataclass
-from itertools import count
 from pathlib import Path
 from typing import Any
 
 import numpy as np
 
+from compare.audit import chapter
 from compare.audit.paper import load_papers
-from compare.benchmark.records.rows import COLUMNS, csv_text
-from compare.benchmark.records.store import Store
+from compare.benchmark.records.rows import csv_text, read_csv
+from compare.benchmark.records.stored import read_audits, read_known_times, read_ladder, read_settings, read_traces
 from compare.check_certificate import certificate_file
 from compare.check_certificate.verify import verify
+from compare.studies.study import Study, _finished
 from formulations import FAMILIES, InputError, Trajectory, load, read_motion
 from formulations.motion.files.motion_file import read_points
 from formulations.retiming.path import Path as RetimedPath
@@ -32,9 +33,8 @@ from formulations.robot.waypoints.reader import LARGEST_WAYPOINTS, positions_or_
 SEEDS = Path(__file__).parent / "seeds"
 BESIDE = ("urdf/arm.urdf", "srdf/arm.srdf", "limits/moveit.yaml", "limits/ros.yaml", "waypoints/table.csv")
 FREE = ("acceleration", "jerk", "position")
-SOLVED = 50  # one in so many files is used further where that takes long
+SOLVED = 50  # one in so many files of poses is solved: it takes a tenth of a second
 
-_turn = count()  # makes the calls of one reader differ
 _robots: dict[Path, Robot] = {}
 
 
@@ -63,7 +63,7 @@ def read_urdf(path: Path) -> None:
 
 
 def read_srdf(path: Path) -> None:
-    group = ("chain", "some", "rest")[next(_turn) % 3]
+    group = ("chain", "some", "rest")[path.stat().st_size % 3]
     _is_robot(robot_of(path.parent / "arm.urdf", srdf=path, group=group, unlimited=FREE))
 
 
@@ -78,7 +78,7 @@ def read_waypoints(path: Path) -> None:
         assert np.isfinite(found.poses).all()
         turns = found.poses[:, :3, :3]
         np.testing.assert_allclose(turns @ turns.swapaxes(1, 2), np.tile(np.eye(3), (len(turns), 1, 1)), atol=1e-9)
-        if next(_turn) % SOLVED:
+        if path.stat().st_size % SOLVED:
             return
     waypoints = waypoints_of(path, robot)
     assert np.isfinite(waypoints).all()
@@ -128,8 +128,32 @@ def read_certificate(path: Path) -> None:
 
 def read_store(path: Path) -> None:
     """A file of a folder of results, which ``--resume`` and ``report`` read."""
-    kind = path.name.split(".")[0].removeprefix("input-")
-    READ_OF_STORE[kind](Store(path.parent), path)
+    _STORED[path.name.removeprefix("input-").removeprefix("found-").split(".")[0].split("-")[0]](path)
+
+
+@dataclasses.dataclass(frozen=True)
+class Counted:
+    """A row of a study."""
+
+    name: str
+    count: int
+    ratio: float | None
+
+
+def _of_study(path: Path) -> None:
+    study: Any = Study("planted", Counted, lambda: [], lambda rows: None, lambda rows, summary: "")
+    assert all(isinstance(row, Counted) for rows in _finished(study, path, {"a", "b"}).values() for row in rows)
+
+
+_STORED: dict[str, Callable[[Path], Any]] = {
+    "rows": lambda path: csv_text(read_csv(path)),
+    "traces": read_traces,
+    "settings": read_settings,
+    "ladder": read_ladder,
+    "known": read_known_times,
+    "audit": lambda path: chapter(read_audits(path)["audits"]),
+    "study": _of_study,
+}
 
 
 def _arm(folder: Path) -> Robot:

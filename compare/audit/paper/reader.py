@@ -21,7 +21,7 @@ from compare.audit.paper.records import (
     Total,
 )
 from formulations import FAMILIES, InputError
-from formulations.arms import ARMS
+from formulations.arms import ARMS, load_arm
 from formulations.arms.arm import METRES
 from formulations.motion.verdict import QUANTITIES
 from formulations.problem.arrays import Array
@@ -84,6 +84,10 @@ def _paper(data: dict[str, Any], name: str) -> Paper:
         waypoints = np.array([values(r) for r in grid]) * UNITS[unit]
         half = np.array([halves(r) for r in grid]) * UNITS[unit]
         count = len(grid)
+        if arm is not None and waypoints.shape[1] != load_arm(arm).dof:
+            raise InputError(
+                f"arm: {arm} has {load_arm(arm).dof} joints, the waypoints have {waypoints.shape[1]}"
+            )
     dof = None if waypoints is None else waypoints.shape[1]
     stated = {s.name: s for s in (_stated(t, dof) for t in data.get("limits", []))}
     shown = next((t["unit"] for t in data.get("limits", [])), unit)
@@ -188,7 +192,7 @@ def _stated(table: dict[str, Any], dof: int | None) -> StatedLimits:
         key = f"limits: {name}: {quantity}"
         digits = row(key, raw if isinstance(raw, list) else [raw], width)
         numbers = values(digits)
-        if not (numbers > 0.0).all():
+        if not (numbers * unit > 0.0).all():
             raise InputError(f"{key}: {numbers.min():g} is not positive")
         rows.append(numbers * unit)
         blur.append(reach(digits) * unit)

@@ -18,9 +18,11 @@ from typing import Any, NamedTuple, get_type_hints
 import numpy as np
 
 from compare.benchmark.records.cells import cell_text, parser_of
+from compare.plain_data import read_text
 from formulations import InputError
 from formulations.problem.arrays import Array
 
+_LARGEST = 1_000_000_000  # bytes
 TIMING_COLUMNS = ("seconds_algorithm", "seconds_objective")
 """Columns that differ when the same run is repeated: they hold measured times."""
 
@@ -277,12 +279,9 @@ def read_csv(path: Path) -> list[Row]:
     InputError
         If the file is another table, or a line does not fit; the message names the line.
     """
-    try:
-        text = path.read_text("utf-8")
-    except FileNotFoundError:
+    if not path.exists():
         return []
-    except (OSError, ValueError) as error:
-        raise InputError(f"{path}: cannot be read: {error}") from None
+    text = read_text(path, largest=_LARGEST)
     whole = text[: text.rfind("\n") + 1]
     found = []
     try:

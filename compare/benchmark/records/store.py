@@ -14,52 +14,24 @@ from __future__ import annotations
 import json
 import os
 from collections.abc import Collection, Mapping
-from dataclasses import asdict, dataclass
+from dataclasses import asdict
 from pathlib import Path
 from typing import Any
 
 from compare.benchmark.grade import Graded, Run, Trace
 from compare.benchmark.known_times import KnownTime
-from compare.benchmark.ladders import LadderRecord, checked_ladder_record
+from compare.benchmark.ladders import LadderRecord
 from compare.benchmark.records.rows import Row, RunKey, csv_text, read_csv
+from compare.benchmark.records.stored import (
+    Settings,
+    read_audits,
+    read_known_times,
+    read_ladder,
+    read_settings,
+    read_traces,
+)
 from compare.files import write_json, write_text
 from formulations import InputError
-
-
-@dataclass(frozen=True, slots=True)
-class Settings:
-    """What was asked for: size (default, quick or full), cases, number of seeds, budget in words."""
-
-    size: str
-    cases: tuple[str, ...]
-    seeds: int
-    budget: str
-
-    @staticmethod
-    def from_json(data: Any) -> Settings:
-        """Parse plain data.
-
-        Parameters
-        ----------
-        data : object
-            What was read from JSON.
-
-        Returns
-        -------
-        Settings
-
-        Raises
-        ------
-        ValueError
-            If an entry is missing or of another type.
-        """
-        if not isinstance(data, dict):
-            raise ValueError("not a table")
-        cases = data.get("cases")
-        found = (data.get("size"), data.get("seeds"), data.get("budget"))
-        if [type(value) for value in found] != [str, int, str] or not isinstance(cases, list):
-            raise ValueError("unexpected entries")
-        return Settings(data["size"], tuple(str(case) for case in cases), data["seeds"], data["budget"])
 
 
 class Store:
@@ -138,21 +110,7 @@ class Store:
 
     def traces(self) -> dict[RunKey, list[Trace]]:
         """Traces by run; a last line that was cut short is left out."""
-        try:
-            text = self.traces_file.read_text("utf-8")
-        except FileNotFoundError:
-            return {}
-        found = {}
-        for line in text[: text.rfind("\n") + 1].splitlines():
-            try:
-                entry = json.loads(line)
-                found[RunKey(*entry["run"])] = [
-                    Trace(t["joint"], t["evaluations"], [_infinite(b) for b in t["best"]])
-                    for t in entry["traces"]
-                ]
-            except (ValueError, KeyError, TypeError) as error:
-                raise InputError(f"{self.traces_file}: not a trace: {error}") from None
-        return found
+        return read_traces(self.traces_file)
 
     def write_settings(self, settings: Settings) -> None:
         """Keep what was asked for.
@@ -166,8 +124,8 @@ class Store:
     def settings(self) -> Settings:
         """What was asked for. Raises InputError if the folder holds no comparison."""
         try:
-            return Settings.from_json(json.loads((self.folder / "settings.json").read_text("utf-8")))
-        except (OSError, ValueError) as error:
+            return read_settings(self.folder / "settings.json")
+        except InputError as error:
             raise InputError(f"{self.folder}: holds no comparison: {error}") from None
 
     def write_ladder(self, case: str, ladder: LadderRecord) -> None:
@@ -183,7 +141,7 @@ class Store:
     def ladders(self) -> dict[str, LadderRecord]:
         """Bounds by case, in alphabetical order."""
         paths = sorted(self.folder.glob("ladders/*.json"))
-        return {path.stem: checked_ladder_record(_read(path), path) for path in paths}
+        return {path.stem: read_ladder(path) for path in paths}
 
     def write_known_times(self, case: str, lines: list[KnownTime]) -> None:
         """Keep what is known of the task of a case.
@@ -197,13 +155,8 @@ class Store:
 
     def known_times(self) -> dict[str, list[KnownTime]]:
         """What is known of the task of each case."""
-        found = {}
-        for path in sorted(self.folder.glob("known_times/*.json")):
-            try:
-                found[path.stem] = [KnownTime(**line) for line in _read(path)]
-            except TypeError as error:
-                raise InputError(f"{path}: not a table of known times: {error}") from None
-        return found
+        paths = sorted(self.folder.glob("known_times/*.json"))
+        return {path.stem: read_known_times(path) for path in paths}
 
     def write_audit(self, paper: str, made_of: Mapping[str, str], audits: list[dict[str, Any]]) -> None:
         """Keep the audits of a paper and its variants.
@@ -221,7 +174,7 @@ class Store:
     def audits(self) -> dict[str, dict[str, Any]]:
         """By paper: what its audit was made of, and ``audits``, a list."""
         paths = sorted(self.folder.glob("papers/*/audit.json"))
-        return {path.parent.name: _read(path) for path in paths}
+        return {path.parent.name: read_audits(path) for path in paths}
 
     def _replace(self, rows: Collection[Row], traces: Mapping[RunKey, list[Trace]]) -> None:
         """Write both files anew, each whole or not at all."""
@@ -233,14 +186,6 @@ class Store:
         path = self.folder / name
         path.parent.mkdir(parents=True, exist_ok=True)
         write_json(path, data)
-
-
-def _read(path: Path) -> Any:
-    """JSON of a file. Raises InputError if it holds none."""
-    try:
-        return json.loads(path.read_text("utf-8"))
-    except (OSError, ValueError) as error:
-        raise InputError(f"{path}: cannot be read: {error}") from None
 
 
 def _append(path: Path, line: str) -> None:
@@ -265,7 +210,3 @@ def _trace_line(key: RunKey, traces: list[Trace]) -> str:
         entry["best"] = [b if b < float("inf") else None for b in trace.best]
         plain.append(entry)
     return json.dumps({"run": list(key), "traces": plain}, allow_nan=False) + "\n"
-
-
-def _infinite(value: float | None) -> float:
-    return float("inf") if value is None else float(value)

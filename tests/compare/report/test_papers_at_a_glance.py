@@ -88,10 +88,10 @@ def test_audits_are_stored_kept_and_made_again(tmp_path: Path) -> None:
         assert [one["paper"] for one in data["audits"]] == ["z1"]
         assert {"digest", "versions", "machine"} <= set(data)
 
-        data["audits"] = "kept"
+        data["audits"][0]["title"] = "kept"
         path.write_text(json.dumps(data))
         audits(pool, ["z1"], store)
-        assert store.audits()["z1"]["audits"] == "kept"
+        assert store.audits()["z1"]["audits"][0]["title"] == "kept"
         # of another text of the paper, it is made again
         path.write_text(json.dumps(data | {"digest": "another"}))
         audits(pool, ["z1"], store)
@@ -104,7 +104,7 @@ def test_audits_are_stored_kept_and_made_again(tmp_path: Path) -> None:
     assert 'href="papers/z1.html"' in page
     assert "Lu 2024: Unitree Z1" in page
     path.write_text("{")
-    with pytest.raises(InputError, match=r"audit\.json: cannot be read"):
+    with pytest.raises(InputError, match=r"audit\.json: not the audits"):
         store.audits()
     store.clear()
     assert store.audits() == {}
