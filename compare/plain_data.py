@@ -13,7 +13,8 @@ from typing import Any, NotRequired, Union, get_args, get_origin, get_type_hints
 from formulations import InputError
 from formulations.robot.text.files import decode, read_bytes, shown
 
-LARGEST = 50_000_000  # bytes of a file of results
+LARGEST = 20_000_000  # bytes of a file of results
+_MOST_VALUES = 1_000_000
 
 
 def read_text(path: Path, *, largest: int = LARGEST) -> str:
@@ -85,6 +86,8 @@ def parse_json(text: str, kind: Any, where: str) -> Any:
     InputError
         The text is no JSON, or holds something else.
     """
+    if text.count(",") > _MOST_VALUES:
+        raise InputError(f"{where}: more than {_MOST_VALUES} values")
     try:
         return typed(kind, json.loads(text))
     except (ValueError, RecursionError) as error:

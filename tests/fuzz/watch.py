@@ -98,14 +98,14 @@ def accepted(
     places: tuple[str, ...] = (),
     seconds: float = SLOWEST,
 ) -> tuple[bool, float, str]:
-    """Whether a reader accepts a file, the time it took [s], and the line with which it refused.
+    """Whether a reader accepts a file, the processor time it took [s], and the line with which it refused.
 
     Raises Fault for every other end.
     """
     watch = _WATCH
     watch.folder, watch.names_files = str(path.parent), names_files
     line, refused = "", False
-    start = time.perf_counter()
+    start = time.process_time()
     try:
         signal.setitimer(signal.ITIMER_REAL, seconds)
         watch.on = True
@@ -120,7 +120,7 @@ def accepted(
         if isinstance(error, KeyboardInterrupt):
             raise
         raise Fault(f"{type(error).__name__}: {error!s:.300}") from error
-    spent = time.perf_counter() - start
+    spent = time.process_time() - start
     if watch.faults:  # a reader caught it
         raise Fault(watch.faults.pop())
     if refused:

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import tomllib
 from dataclasses import replace
 from typing import Any
 
@@ -25,6 +24,7 @@ from formulations.arms import ARMS, load_arm
 from formulations.arms.arm import METRES
 from formulations.motion.verdict import QUANTITIES
 from formulations.problem.arrays import Array
+from formulations.problem.toml_file.toml_text import parse_toml
 
 _MOST_JOINTS = 100  # of an arm whose waypoints are not printed
 
@@ -48,10 +48,7 @@ def parse_papers(text: str, name: str) -> list[Paper]:
     InputError
         One line that names the key.
     """
-    try:
-        data = tomllib.loads(text)
-    except (ValueError, RecursionError) as error:
-        raise InputError(f"{name}: not valid TOML: {error}") from None
+    data = parse_toml(text, name)
     try:
         check_keys(data)
         paper = _paper(data, name)

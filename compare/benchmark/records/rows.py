@@ -18,9 +18,9 @@ from typing import Any, NamedTuple, get_type_hints
 import numpy as np
 
 from compare.benchmark.records.cells import cell_text, parser_of
-from compare.plain_data import read_text
 from formulations import InputError
 from formulations.problem.arrays import Array
+from formulations.robot.text.files import decode, read_bytes
 
 _LARGEST = 1_000_000_000  # bytes
 TIMING_COLUMNS = ("seconds_algorithm", "seconds_objective")
@@ -281,13 +281,14 @@ def read_csv(path: Path) -> list[Row]:
     """
     if not path.exists():
         return []
-    text = read_text(path, largest=_LARGEST)
-    whole = text[: text.rfind("\n") + 1]
+    data = read_bytes(path, largest=_LARGEST)
+    whole = data[: data.rfind(b"\n") + 1]
+    if not whole.startswith(",".join(COLUMNS).encode() + b"\n"):
+        raise InputError(f"{path}: not a table of this version of timebound")
     found = []
     try:
-        lines = csv.reader(io.StringIO(whole), strict=True)
-        if next(lines, None) != list(COLUMNS):
-            raise InputError(f"{path}: not a table of this version of timebound")
+        lines = csv.reader(io.StringIO(decode(whole, str(path)), newline=""), strict=True)
+        next(lines)
         for cells in lines:
             if len(cells) != len(COLUMNS):
                 raise InputError(

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 from dataclasses import dataclass
+from itertools import count
 from pathlib import Path
 from typing import Any, TypedDict
 
@@ -127,4 +128,10 @@ def whole_lines(path: Path) -> Iterator[tuple[int, str]]:
     if not path.exists() or not path.stat().st_size:
         return
     text = read_text(path, largest=_LARGEST_TRACES)
-    yield from enumerate(text[: text.rfind("\n") + 1].split("\n")[:-1], start=1)
+    start = 0
+    for number in count(1):
+        end = text.find("\n", start)
+        if end < 0:
+            return
+        yield number, text[start:end]
+        start = end + 1

@@ -21,6 +21,8 @@ from formulations.problem.errors import InputError
 from formulations.robot.text.files import known_names, shown
 
 _LARGEST = 1_000_000_000  # bytes of all arrays
+_LONGEST_ITEM = 4000  # bytes of a name or a number
+_MOST_MEMBERS = 1000  # far more than are known, for the bytes of numbers may look like an entry
 _KEYS = ("time", *QUANTITIES, "joint_names")
 
 
@@ -101,6 +103,8 @@ def read_npz(data: bytes, file: str) -> MotionPoints:
 def _arrays(data: bytes, file: str) -> dict[str, Any]:
     """All arrays; their sizes are known before memory is asked for."""
     arrays = {}
+    if data.count(b"PK\1\2") > _MOST_MEMBERS:  # entries of its directory
+        raise InputError(f"{file}: more than {_MOST_MEMBERS} arrays")
     try:
         with zipfile.ZipFile(io.BytesIO(data)) as archive:
             members = archive.infolist()
@@ -113,7 +117,8 @@ def _arrays(data: bytes, file: str) -> dict[str, Any]:
                     raise InputError(f"{file}: unknown array {shown(key)}; {known_names(key, _KEYS)}")
                 if key in arrays:
                     raise InputError(f"{file}: array {shown(key)} is there twice")
-                arrays[key] = _array(archive.read(member), f"{file}: {key}")
+                with archive.open(member) as stream:
+                    arrays[key] = _array(stream, member.file_size, f"{file}: {key}")
     except InputError:
         raise
     except (zipfile.BadZipFile, zlib.error, EOFError, OSError, NotImplementedError, RuntimeError,
@@ -123,8 +128,8 @@ def _arrays(data: bytes, file: str) -> dict[str, Any]:
     return arrays
 
 
-def _array(data: bytes, place: str) -> Any:
-    stream = io.BytesIO(data)
+def _array(stream: Any, size: int, place: str) -> Any:
+    """One array; what its header claims is compared with its size before more is unpacked."""
     version = npy.read_magic(stream)
     if version == (1, 0):
         shape, by_columns, dtype = npy.read_array_header_1_0(stream)
@@ -134,12 +139,17 @@ def _array(data: bytes, place: str) -> Any:
         raise InputError(f"{place}: version {version} of the NPY format is not read")
     if dtype.hasobject or dtype.kind not in "fiuUb":
         raise InputError(f"{place}: expected numbers or text, got {dtype}")
-    body = data[stream.tell() :]
+    rest = size - stream.tell()
+    if dtype.itemsize > _LONGEST_ITEM:
+        raise InputError(f"{place}: {dtype}: at most {_LONGEST_ITEM} bytes of a value are read")
     count = 1
     for length in shape:
         count *= int(length)
-    if len(shape) > 2 or count * dtype.itemsize != len(body):
-        raise InputError(f"{place}: the shape {shape} of {dtype} does not fit {len(body)} bytes")
+    if len(shape) > 2 or count * dtype.itemsize != rest:
+        raise InputError(f"{place}: the shape {shape} of {dtype} does not fit {rest} bytes")
+    body = stream.read()
+    if len(body) != rest:
+        raise InputError(f"{place}: {len(body)} bytes are there, {rest} are expected")
     if count == 0:
         return np.empty(shape, dtype=dtype)
     return np.frombuffer(body, dtype=dtype).reshape(shape, order="F" if by_columns else "C")

@@ -159,7 +159,7 @@ def _split(data: bytes, start: int, end: int, separator: bytes) -> Records | Non
     record = data[start:end]
     if b"\0" in record:
         return None
-    template = re.sub(rb"[ \t]+\0", b"\0", _NUMBER.sub(b"\0", record))
+    template = re.sub(rb"(?<![ \t])[ \t]+\0", b"\0", _NUMBER.sub(b"\0", record))
     slots = template.count(b"\0")
     if not slots:
         return None

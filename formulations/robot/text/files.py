@@ -24,6 +24,7 @@ _MARKS = (  # the longer marks first: that of UTF-32 begins with that of UTF-16
 )
 _SHOWN = 50  # characters of a value in a message
 _COMPARED = 100  # characters of a name that are compared with known names
+_LONGEST_NUMBER = 1000  # characters
 _NUMBER = re.compile(r"[-+]?(?:\d+(?:\.\d*)?|\.\d+)(?:[eE][-+]?\d+)?", re.ASCII)  # linear in the length
 
 
@@ -104,7 +105,7 @@ def decode(data: bytes, file: str) -> str:
     if "\0" in text:
         line = text.count("\n", 0, text.index("\0")) + 1
         raise InputError(f"{file}: line {line}: holds a null character, so it is not a text file")
-    if not text.strip():
+    if not text or text.isspace():
         raise InputError(f"{file}: is empty")
     return text
 
@@ -122,6 +123,8 @@ def number_of(text: str) -> float | None:
     float or None
         None where the text is anything else: ``nan``, ``inf`` and ``1_000`` too.
     """
+    if len(text) > _LONGEST_NUMBER:
+        return None
     text = text.strip()
     return float(text) if _NUMBER.fullmatch(text) else None
 
