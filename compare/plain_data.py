@@ -158,7 +158,13 @@ def typed(kind: Any, data: Any, place: str = "") -> Any:
     return data
 
 
-_NAMES = {str: "text", int: "a whole number", float: "a number", bool: "true or false", types.NoneType: "null"}
+_NAMES = {
+    str: "text",
+    int: "a whole number",
+    float: "a number",
+    bool: "true or false",
+    types.NoneType: "null",
+}
 
 
 @cache

@@ -25,7 +25,9 @@ def large(head: bytes, piece: bytes, tail: bytes = b"", size: int = SIZE) -> Cal
     return lambda: head + piece * ((size - len(head) - len(tail)) // len(piece)) + tail
 
 
-def nested(opening: bytes, closing: bytes = b"", head: bytes = b"", depth: int = 100_000) -> Callable[[], bytes]:
+def nested(
+    opening: bytes, closing: bytes = b"", head: bytes = b"", depth: int = 100_000
+) -> Callable[[], bytes]:
     """Values in values."""
     return lambda: head + opening * depth + b"1" + closing * depth
 
@@ -39,18 +41,30 @@ def laughs(head: bytes = b"") -> bytes:
 
 def entities(root: bytes) -> bytes:
     """XML entities of entities."""
-    lines = [b'<!ENTITY a0 "lol">'] + [b'<!ENTITY a%d "%s">' % (k, b"&a%d;" % (k - 1) * 10) for k in range(1, 10)]
+    lines = [b'<!ENTITY a0 "lol">'] + [
+        b'<!ENTITY a%d "%s">' % (k, b"&a%d;" % (k - 1) * 10) for k in range(1, 10)
+    ]
     return b"<!DOCTYPE robot [\n" + b"\n".join(lines) + b"]>\n<" + root + b">&a9;</" + root + b">"
 
 
-def npz(shape: str, body: bytes = b"", *, name: str = "time.npy", descr: str = "<f8", method: int = 0, times: int = 1) -> bytes:
+def npz(
+    shape: str,
+    body: bytes = b"",
+    *,
+    name: str = "time.npy",
+    descr: str = "<f8",
+    method: int = 0,
+    times: int = 1,
+) -> bytes:
     """An archive whose members claim a shape."""
     header = f"{{'descr': '{descr}', 'fortran_order': False, 'shape': {shape}, }}\n".encode()
     member = b"\x93NUMPY\1\0" + struct.pack("<H", len(header)) + header + body
     stream = io.BytesIO()
     with zipfile.ZipFile(stream, "w", method or zipfile.ZIP_STORED) as archive:
         for k in range(times):
-            archive.writestr(zipfile.ZipInfo(f"{k}{name}" if k else name), member, method or zipfile.ZIP_STORED)
+            archive.writestr(
+                zipfile.ZipInfo(f"{k}{name}" if k else name), member, method or zipfile.ZIP_STORED
+            )
     return stream.getvalue()
 
 

@@ -84,19 +84,25 @@ def _found(m: Mutator, pattern: re.Pattern[bytes], data: Data) -> re.Match[bytes
 
 def _number(m: Mutator, data: Data) -> Data:
     match = _found(m, _NUMBER, data)
-    return data if match is None else data[: match.start()] + m.rng.choice(NUMBERS) + data[match.end() :]
+    return (
+        data if match is None else data[: match.start()] + m.rng.choice(NUMBERS) + data[match.end() :]
+    )
 
 
 def _word(m: Mutator, data: Data) -> Data:
     match = _found(m, _WORD, data)
-    return data if match is None else data[: match.start()] + m.rng.choice(m.words) + data[match.end() :]
+    return (
+        data if match is None else data[: match.start()] + m.rng.choice(m.words) + data[match.end() :]
+    )
 
 
 def _value(m: Mutator, data: Data) -> Data:
     """What stands between two separators becomes something else."""
     at = m.spot(data)
     start = max(data.rfind(mark, 0, at) for mark in (b" ", b"=", b":", b",", b"["))
-    end = min((x for x in (data.find(mark, at) for mark in (b"\n", b",", b"]", b"}")) if x >= 0), default=at)
+    end = min(
+        (x for x in (data.find(mark, at) for mark in (b"\n", b",", b"]", b"}")) if x >= 0), default=at
+    )
     return data[: start + 1] + m.rng.choice(VALUES if m.rng.random() < 0.7 else NUMBERS) + data[end:]
 
 
@@ -168,7 +174,9 @@ def _line_ends(m: Mutator, data: Data) -> Data:
 def _bom(m: Mutator, data: Data) -> Data:
     if m.rng.random() < 0.5:
         return m.rng.choice(_BOMS) + data
-    return data.decode("utf-8", "replace").encode(m.rng.choice(("utf-16", "utf-32", "utf-16-le", "utf-7")))
+    return data.decode("utf-8", "replace").encode(
+        m.rng.choice(("utf-16", "utf-32", "utf-16-le", "utf-7"))
+    )
 
 
 def _nest(m: Mutator, data: Data) -> Data:
@@ -178,7 +186,15 @@ def _nest(m: Mutator, data: Data) -> Data:
         return data
     n = m.rng.choice((2, 5, 31, 33, 100, 1000))
     opening, closing = m.rng.choice(
-        ((b"[", b"]"), (b"{a: ", b"}"), (b'{"a": ', b"}"), (b"{a = ", b"}"), (b"a.", b""), (b"<a>", b"</a>"), (b"- ", b""))
+        (
+            (b"[", b"]"),
+            (b"{a: ", b"}"),
+            (b'{"a": ', b"}"),
+            (b"{a = ", b"}"),
+            (b"a.", b""),
+            (b"<a>", b"</a>"),
+            (b"- ", b""),
+        )
     )
     return data[: match.start()] + opening * n + match.group() + closing * n + data[match.end() :]
 

@@ -18,7 +18,13 @@ import numpy as np
 from compare.audit import chapter
 from compare.audit.paper import load_papers
 from compare.benchmark.records.rows import csv_text, read_csv
-from compare.benchmark.records.stored import read_audits, read_known_times, read_ladder, read_settings, read_traces
+from compare.benchmark.records.stored import (
+    read_audits,
+    read_known_times,
+    read_ladder,
+    read_settings,
+    read_traces,
+)
 from compare.check_certificate import certificate_file
 from compare.check_certificate.verify import verify
 from compare.studies.study import Study, _finished
@@ -31,7 +37,13 @@ from formulations.robot.waypoints.poses import Poses
 from formulations.robot.waypoints.reader import LARGEST_WAYPOINTS, positions_or_poses
 
 SEEDS = Path(__file__).parent / "seeds"
-BESIDE = ("urdf/arm.urdf", "srdf/arm.srdf", "limits/moveit.yaml", "limits/ros.yaml", "waypoints/table.csv")
+BESIDE = (
+    "urdf/arm.urdf",
+    "srdf/arm.srdf",
+    "limits/moveit.yaml",
+    "limits/ros.yaml",
+    "waypoints/table.csv",
+)
 FREE = ("acceleration", "jerk", "position")
 SOLVED = 50  # one in so many files of poses is solved: it takes a tenth of a second
 
@@ -77,7 +89,9 @@ def read_waypoints(path: Path) -> None:
     if isinstance(found, Poses):
         assert np.isfinite(found.poses).all()
         turns = found.poses[:, :3, :3]
-        np.testing.assert_allclose(turns @ turns.swapaxes(1, 2), np.tile(np.eye(3), (len(turns), 1, 1)), atol=1e-9)
+        np.testing.assert_allclose(
+            turns @ turns.swapaxes(1, 2), np.tile(np.eye(3), (len(turns), 1, 1)), atol=1e-9
+        )
         if path.stat().st_size % SOLVED:
             return
     waypoints = waypoints_of(path, robot)
@@ -142,7 +156,9 @@ class Counted:
 
 def _of_study(path: Path) -> None:
     study: Any = Study("planted", Counted, lambda: [], lambda rows: None, lambda rows, summary: "")
-    assert all(isinstance(row, Counted) for rows in _finished(study, path, {"a", "b"}).values() for row in rows)
+    assert all(
+        isinstance(row, Counted) for rows in _finished(study, path, {"a", "b"}).values() for row in rows
+    )
 
 
 _STORED: dict[str, Callable[[Path], Any]] = {
@@ -158,7 +174,9 @@ _STORED: dict[str, Callable[[Path], Any]] = {
 
 def _arm(folder: Path) -> Robot:
     if folder not in _robots:
-        _robots[folder] = Robot.from_urdf(folder / "arm.urdf", tip="tip", unlimited=("acceleration", "jerk"))
+        _robots[folder] = Robot.from_urdf(
+            folder / "arm.urdf", tip="tip", unlimited=("acceleration", "jerk")
+        )
     return _robots[folder]
 
 

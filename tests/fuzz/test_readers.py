@@ -34,7 +34,12 @@ SEED = int(os.environ.get("TIMEBOUND_FUZZ_SEED", "20261126"))
 LONG = COUNT > 100_000
 HANG = 120.0  # s without an end in which no signal is answered: the process ends with its stack
 TEXTS = [reader for reader in READERS if reader.name != "npz"]
-KEPT = [pytest.param(reader, path, id=f"{reader.name}/{path.name}") for reader in READERS if reader.name != "npz" for path in reader.seeds]
+KEPT = [
+    pytest.param(reader, path, id=f"{reader.name}/{path.name}")
+    for reader in READERS
+    if reader.name != "npz"
+    for path in reader.seeds
+]
 
 
 @pytest.fixture
@@ -43,7 +48,9 @@ def folder(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Path:
         (tmp_path / Path(name).name).write_bytes((SEEDS / name).read_bytes())
     # the robot beside an input is the same each time, and its URDF takes longer to read than all else
     monkeypatch.setattr(assembly, "parse_urdf", lru_cache(8)(assembly.parse_urdf))
-    monkeypatch.setattr(reach, "_STARTS", 3)  # how near an arm gets to a pose out of reach: a search of seconds
+    monkeypatch.setattr(
+        reach, "_STARTS", 3
+    )  # how near an arm gets to a pose out of reach: a search of seconds
     return tmp_path
 
 
@@ -85,7 +92,10 @@ def test_spoilt_files_give_an_answer_or_one_line(folder: Path, reader: Reader) -
             if k % 5000 == 0:
                 faulthandler.dump_traceback_later(HANG, exit=True)
                 if LONG and k:
-                    print(f"{reader.name}: {k} of {count}, {k / (time.perf_counter() - started):.0f} per second", flush=True)
+                    print(
+                        f"{reader.name}: {k} of {count}, {k / (time.perf_counter() - started):.0f} per second",
+                        flush=True,
+                    )
             name, content = seeds[int(rng.random() * len(seeds))]
             path = folder / f"input-{name}"
             spoilt = mutator.mutated(content)
@@ -96,7 +106,9 @@ def test_spoilt_files_give_an_answer_or_one_line(folder: Path, reader: Reader) -
                 faulthandler.cancel_dump_traceback_later()
                 kept = path.with_name(f"found-{name}")
                 kept.write_bytes(spoilt)
-                raise AssertionError(f"{reader.name}, seed {SEED}, input {k}: {kept}: {fault}: {spoilt[:2000]!r}") from fault
+                raise AssertionError(
+                    f"{reader.name}, seed {SEED}, input {k}: {kept}: {fault}: {spoilt[:2000]!r}"
+                ) from fault
             answers += answer
             spent.append(seconds)
     faulthandler.cancel_dump_traceback_later()

@@ -23,10 +23,32 @@ SLOWEST = 5.0  # s of wall clock for one input, a hundred times what the slowest
 MEMORY = 2_000_000_000  # bytes of address space beyond what the process has
 LONGEST = 1000  # characters of an error
 
-_FORBIDDEN = ("os.", "shutil.", "subprocess.", "socket.", "tempfile.", "pickle.", "sqlite3.", "ftplib.", "urllib.")
-_HARMLESS = ("os.listdir", "os.scandir", "os.walk", "os.fwalk", "os.getxattr", "os.listxattr", "os.putenv")
+_FORBIDDEN = (
+    "os.",
+    "shutil.",
+    "subprocess.",
+    "socket.",
+    "tempfile.",
+    "pickle.",
+    "sqlite3.",
+    "ftplib.",
+    "urllib.",
+)
+_HARMLESS = (
+    "os.listdir",
+    "os.scandir",
+    "os.walk",
+    "os.fwalk",
+    "os.getxattr",
+    "os.listxattr",
+    "os.putenv",
+)
 _WRITING = os.O_WRONLY | os.O_RDWR | os.O_CREAT | os.O_TRUNC | os.O_APPEND
-_CODE = tuple(str(Path(root)) for root in {sys.prefix, sys.base_prefix, *sys.path, Path(__file__).parents[2]} if root)
+_CODE = tuple(
+    str(Path(root))
+    for root in {sys.prefix, sys.base_prefix, *sys.path, Path(__file__).parents[2]}
+    if root
+)
 
 
 class Fault(Exception):

@@ -12,17 +12,77 @@ import numpy as np
 
 from mutations import Mutator
 
-_NAMES = ("time.npy", "position.npy", "velocity.npy", "acceleration.npy", "joint_names.npy", "time", "x.npy", "../x.npy", "/etc/x.npy", "", "a/b.npy")
-_TYPES = ("<f8", "<f4", ">f8", "<i4", "<u8", "|b1", "<c16", "<U3", "|S3", "<M8[s]", "|O", "<f2", "<f16", "|V8", "|V0", "<U0", "i,f", "<U99999999")
-_SHAPES = ("()", "(3,)", "(3, 2)", "(2, 3)", "(3, 1)", "(0,)", "(3, 0)", "(-1,)", "(3, 2, 1)", "(1000000000000,)", "(3, 99999999999)", "(1e3,)", "(3,", "3", "(True,)", "(2**70,)", "[3]", "None", "('a',)")
+_NAMES = (
+    "time.npy",
+    "position.npy",
+    "velocity.npy",
+    "acceleration.npy",
+    "joint_names.npy",
+    "time",
+    "x.npy",
+    "../x.npy",
+    "/etc/x.npy",
+    "",
+    "a/b.npy",
+)
+_TYPES = (
+    "<f8",
+    "<f4",
+    ">f8",
+    "<i4",
+    "<u8",
+    "|b1",
+    "<c16",
+    "<U3",
+    "|S3",
+    "<M8[s]",
+    "|O",
+    "<f2",
+    "<f16",
+    "|V8",
+    "|V0",
+    "<U0",
+    "i,f",
+    "<U99999999",
+)
+_SHAPES = (
+    "()",
+    "(3,)",
+    "(3, 2)",
+    "(2, 3)",
+    "(3, 1)",
+    "(0,)",
+    "(3, 0)",
+    "(-1,)",
+    "(3, 2, 1)",
+    "(1000000000000,)",
+    "(3, 99999999999)",
+    "(1e3,)",
+    "(3,",
+    "3",
+    "(True,)",
+    "(2**70,)",
+    "[3]",
+    "None",
+    "('a',)",
+)
 
 
 def seeds() -> list[bytes]:
     """States of two joints with names, and positions of one joint without."""
     t = np.arange(3) / 4.0
     q = np.stack([t, 1.0 - t], axis=1)
-    states = {"time": t, "position": q, "velocity": 0.0 * q, "acceleration": 0.0 * q, "joint_names": np.array(["a", "b"])}
-    return [_packed([(f"{key}.npy", _npy(value)) for key, value in arrays.items()]) for arrays in (states, {"time": t, "position": q[:, :1]})]
+    states = {
+        "time": t,
+        "position": q,
+        "velocity": 0.0 * q,
+        "acceleration": 0.0 * q,
+        "joint_names": np.array(["a", "b"]),
+    }
+    return [
+        _packed([(f"{key}.npy", _npy(value)) for key, value in arrays.items()])
+        for arrays in (states, {"time": t, "position": q[:, :1]})
+    ]
 
 
 def _npy(array: Any) -> bytes:
@@ -69,7 +129,9 @@ class ZipMutator:
                 members.insert(k, (name, members[rng.randrange(len(members))][1]))
             elif len(members) > 1:
                 del members[k]
-        return _packed(members, rng.choice((zipfile.ZIP_STORED, zipfile.ZIP_STORED, zipfile.ZIP_DEFLATED)))
+        return _packed(
+            members, rng.choice((zipfile.ZIP_STORED, zipfile.ZIP_STORED, zipfile.ZIP_DEFLATED))
+        )
 
     def _with_header(self, body: bytes) -> bytes:
         """The member with another header of the right length."""
@@ -80,5 +142,9 @@ class ZipMutator:
             header = self.text.mutated(header.encode()).decode("latin-1")
         text = header.encode("latin-1") + b"\n"
         version = rng.choice((b"\1\0", b"\1\0", b"\2\0", b"\3\0", b"\0\0"))
-        size = len(text).to_bytes(2 if version == b"\1\0" else 4, "little") if len(text) < 60_000 else b"\xff\xff"
+        size = (
+            len(text).to_bytes(2 if version == b"\1\0" else 4, "little")
+            if len(text) < 60_000
+            else b"\xff\xff"
+        )
         return b"\x93NUMPY" + version + size + text + body[80:] * rng.randrange(3)

@@ -67,25 +67,89 @@ class _AuditFile(TypedDict):
 
 
 def read_settings(path: Path) -> Settings:
-    """Read what was asked for; raises InputError in one line."""
+    """Read what was asked for.
+
+    Parameters
+    ----------
+    path : Path
+        The file.
+
+    Returns
+    -------
+    Settings
+        Size, cases, seeds and budget.
+
+    Raises
+    ------
+    InputError
+        It is no such file; one line that names the entry.
+    """
     found: Settings = read_json(path, Settings, "the settings of a comparison")
     return found
 
 
 def read_ladder(path: Path) -> LadderRecord:
-    """Read the bounds of a case; raises InputError in one line."""
+    """Read the bounds of a case.
+
+    Parameters
+    ----------
+    path : Path
+        The file.
+
+    Returns
+    -------
+    LadderRecord
+        Plain data.
+
+    Raises
+    ------
+    InputError
+        It is no such file; one line that names the entry.
+    """
     found: LadderRecord = read_json(path, LadderRecord, "a ladder")
     return found
 
 
 def read_known_times(path: Path) -> list[KnownTime]:
-    """Read what is known of the task of a case; raises InputError in one line."""
+    """Read what is known of the task of a case.
+
+    Parameters
+    ----------
+    path : Path
+        The file.
+
+    Returns
+    -------
+    list of KnownTime
+        The lines of the table.
+
+    Raises
+    ------
+    InputError
+        It is no such file; one line that names the entry.
+    """
     found: list[KnownTime] = read_json(path, list[KnownTime], "a table of known times")
     return found
 
 
 def read_audits(path: Path) -> dict[str, Any]:
-    """Read the audits of a paper and of its variants; raises InputError in one line."""
+    """Read the audits of a paper and of its variants.
+
+    Parameters
+    ----------
+    path : Path
+        The file.
+
+    Returns
+    -------
+    dict
+        ``audits``, and what they were made of.
+
+    Raises
+    ------
+    InputError
+        It is no such file; one line that names the entry.
+    """
     found: dict[str, Any] = read_json(path, _AuditFile, "the audits of a paper")
     try:
         for index, audit in enumerate(found["audits"]):
@@ -96,7 +160,23 @@ def read_audits(path: Path) -> dict[str, Any]:
 
 
 def read_traces(path: Path) -> dict[RunKey, list[Trace]]:
-    """Read the traces of all runs; raises InputError in one line."""
+    """Read the traces of all runs.
+
+    Parameters
+    ----------
+    path : Path
+        The file.
+
+    Returns
+    -------
+    dict of RunKey to list of Trace
+        By run; a last line that was cut short is left out.
+
+    Raises
+    ------
+    InputError
+        It is no such file; one line that names the entry.
+    """
     found = {}
     for number, line in whole_lines(path):
         entry = parse_json(line, _TraceLine, f"{path}: line {number}: not a trace")

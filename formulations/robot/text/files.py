@@ -24,7 +24,7 @@ _MARKS = (  # the longer marks first: that of UTF-32 begins with that of UTF-16
 )
 _SHOWN = 50  # characters of a value in a message
 _COMPARED = 100  # characters of a name that are compared with known names
-_LONGEST_NUMBER = 1000  # characters
+_LONGEST_NUMBER = 10_000  # characters
 _NUMBER = re.compile(r"[-+]?(?:\d+(?:\.\d*)?|\.\d+)(?:[eE][-+]?\d+)?", re.ASCII)  # linear in the length
 
 

@@ -51,7 +51,9 @@ def parse_yaml(text: str, file: str) -> TextEntry:
             f"{file}: YAML needs the package PyYAML: pip install 'timebound[robot]'"
         ) from None
     loader = getattr(yaml, "CSafeLoader", yaml.SafeLoader)
-    _require_few(file, text.count("\n") // 2 + text.count(",") // 2, MOST_NODES)  # both, if a list is long
+    _require_few(
+        file, text.count("\n") // 2 + text.count(",") // 2, MOST_NODES
+    )  # both, if a list is long
     builder = _Builder(file)
     try:
         for event in yaml.parse(text, Loader=loader):
