@@ -10,7 +10,8 @@ from cyclopts import Parameter
 from compare.benchmark import suite
 from compare.benchmark.known_times import key_of_paper
 from compare.benchmark.objective import CODINGS
-from compare.benchmark.records.store import Settings, Store
+from compare.benchmark.records.store import Store
+from compare.benchmark.records.stored import Settings
 from compare.benchmark.run import audits, climb, swarm, tabulate_known_times, warm_up, workers
 from compare.commands import DONE
 from compare.commands.options import CORES, Cases, Codings, Jobs, Out, Swarms, positive

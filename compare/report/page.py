@@ -17,7 +17,8 @@ from compare.benchmark.ladders import LadderRecord
 from compare.benchmark.objective import CODINGS
 from compare.benchmark.records.rejudge import judged_again
 from compare.benchmark.records.rows import Row, RowStatus
-from compare.benchmark.records.store import Settings, Store
+from compare.benchmark.records.store import Store
+from compare.benchmark.records.stored import Settings
 from compare.benchmark.run import each
 from compare.benchmark.statistics import Summary, best_claim, best_row, bound_of, summaries
 from compare.files import write_text

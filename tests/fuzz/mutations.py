@@ -13,31 +13,64 @@ _NUMBER = re.compile(rb"[-+]?\d[\d.]*(?:[eE][-+]?\d+)?")
 _LINE_ENDS = (b"\r\n", b"\r", b"\n\n", b"\n\r", "\u2028".encode(), b"\x0b", b"\x85")
 _BOMS = (b"\xef\xbb\xbf", b"\xff\xfe", b"\xfe\xff", b"\xff\xfe\0\0", b"\0\0\xfe\xff", b"+/v8")
 
-NUMBERS = [
-    *(b"nan", b".nan", b"NaN", b"inf", b"-.inf", b"Infinity", b"-Infinity", b"1e308", b"-1e308", b"1e300"),
-    *(b"1e-300", b"5e-324", b"1e999", b"1e9", b"-1e9", b"1e6", b"9" * 20, b"9" * 400, b"9" * 4400, b"-9223372036854775808"),
-    *(b"0x10", b"0x" + b"e" * 400, b"0x1p+1023", b"0x1.8p-1074", b"-0x1p+0", b"0x0p+0", b"0b1", b"0o7", b"1_000"),
-    *(b"0", b"-0", b"-1", b"1", b"2", b"3", b"1.", b".5", b"+1", b"1e", b"1e+", b"--1", b"1,5", b"07:32:00", b"1979-05-27"),
-    *("\u0661".encode(), "\uff11".encode(), b"0.1" + b"0" * 40 + b"1", b"1" * 18 + b".5", b"1E400", b"-1E-400"),
-]  # fmt: skip
-VALUES = [
-    *(b"", b'""', b"''", b"[]", b"{}", b"null", b"~", b"true", b"false", b"True", b"yes", b'"x"', b"[[]]", b"[{}]", b"{a: 1}"),
-    *(b'{"a": 1}', b"{a = 1}", b"[1]", b"[1, 2]", b"[[1, 2], [3]]", b'"1"', b"'1'", b"[nan]", b"- 1", b"[true]", b'["a"]'),
-    *(b'"rad"', b'"deg"', b'"mm"', b'"m"', b'"3-5-3"', b'"4-3-4"', b'"every-motion"', b'"b-spline-3"', b'"velocity"'),
-    *(b"../../etc/passwd", b"/etc/passwd", b"/dev/zero", b"file:///etc/passwd", b"http://127.0.0.1/x", b".", b"..", b"/", b"|id"),
-    *(b"arm.urdf", b"moveit.yaml", b"table.csv", b"nowhere.toml", b'"\\u0000"', b"a\\u0000b", b"a\\nb", b"x" * 300, b"x" * 5000),
-]  # fmt: skip
-MARKS = [
-    *(b"[", b"]", b"{", b"}", b"(", b")", b"<", b">", b"/>", b"/", b",", b";", b":", b"=", b".", b"#", b"'", b'"', b'"""', b"'''"),
-    *(b"\\", b"|", b">\n", b"|\n", b"? ", b"- ", b"---\n", b"...\n", b"%YAML 1.1\n", b"%TAG ! tag:x,2000:\n", b"&a ", b"*a", b"<<: ", b"<<: *a"),
-    *(b"!!python/object:os.system ", b"!!python/object/apply:os.system ['id'] ", b"!degrees ", b"!!binary ", b"!!float ", b"!x "),
-    *(b"<!DOCTYPE a>", b"<!ENTITY a 'b'>", b"<!DOCTYPE a [<!ENTITY b SYSTEM 'file:///etc/passwd'>]>", b"&b;", b"&amp;", b"&#0;", b"&#x10ffff;"),
-    *(b"<![CDATA[", b"]]>", b"<?x?>", b"<?xml version='1.1'?>", b"<!--", b"-->", b"xacro:", b"${x}", b"$(find x)", b"<xi:include href='/etc/passwd'/>"),
-    *(b"<joint name='j1'/>", b"<link name='z'/>", b"<mimic joint='j2'/>", b"<limit/>", b"<axis xyz='0 0 0'/>", b"xmlns:a='b' "),
-    *(b"\0", b"\t", b" ", b"\n", b"\r", b"\n\n", b"\x1b[2J", b"\x7f", b"\xff\xfe", b"\xef\xbb\xbf", b"\xc3", b"\xed\xa0\x80", b"\xf4\x90\x80\x80"),
-    *("\u2028".encode(), "\u00a0".encode(), "\u202e".encode(), "\u200b".encode(), "\U0001f916".encode(), "e\u0301".encode(), "\ufeff".encode()),
-    *(b"[limits]\n", b"[[pose]]\n", b"[a.b.c]\n", b"a.b.c = 1\n", b"\\ud800", b"\\U00110000", b"__proto__", b"0", b"= ", b" = "),
-]  # fmt: skip
+NUMBERS = rb"""
+nan .nan NaN inf -.inf Infinity -Infinity 1e308 -1e308 1e300 1e-300 5e-324 1e999 1E400 -1E-400 1e9 -1e9 1e6
+-9223372036854775808 0x10 0x1p+1023 0x1.8p-1074 -0x1p+0 0x0p+0 0b1 0o7 1_000 0 -0 -1 1 2 3 1. .5 +1 1e 1e+ --1
+1,5 07:32:00 1979-05-27
+""".split()
+NUMBERS += [b"9" * 20, b"9" * 400, b"9" * 4400, b"0x" + b"e" * 400, b"0.1" + b"0" * 40 + b"1"]
+NUMBERS += [b"1" * 18 + b".5", "\u0661".encode(), "\uff11".encode()]
+VALUES = rb"""
+"" '' [] {} null ~ true false True yes "x" [[]] [{}] {"a":1} [1] [1,2] [[1,2],[3]] "1" '1' [nan] [true] ["a"]
+"rad" "deg" "mm" "m" "3-5-3" "4-3-4" "every-motion" "b-spline-3" "velocity"
+../../etc/passwd /etc/passwd /dev/zero file:///etc/passwd http://127.0.0.1/x . .. / |id
+arm.urdf moveit.yaml table.csv nowhere.toml "\u0000" a\u0000b a\nb
+""".split()
+VALUES += [b"", b"{a: 1}", b"{a = 1}", b"- 1", b"x" * 300, b"x" * 5000]
+MARKS = rb"""
+[ ] { } ( ) < > /> / , ; : = . # ' " ''' \ | - & * ! ? % @ ` %YAML %TAG <<: &a *a !!float !x \ud800 \U00110000
+<!ENTITY <!-- --> <![CDATA[ ]]> <?x?> &b; &amp; &#0; &#x10ffff; xacro: ${x} <limit/> a.b.c=1 __proto__ 0
+""".split()
+MARKS += [b'"""', b"<!DOCTYPE a>", b"<!ENTITY a 'b'>"]
+MARKS += [
+    b"<!DOCTYPE a [<!ENTITY b SYSTEM 'file:///etc/passwd'>]>",
+    b"<xi:include href='/etc/passwd'/>",
+]
+MARKS += [
+    b"<?xml version='1.1'?>",
+    b"$(find x)",
+    b"xmlns:a='b' ",
+    b"!!python/object/apply:os.system ['id'] ",
+]
+MARKS += [b"<joint name='j1'/>", b"<link name='z'/>", b"<mimic joint='j2'/>", b"<axis xyz='0 0 0'/>"]
+MARKS += [b">\n", b"|\n", b"? ", b"- ", b"---\n", b"...\n", b"%YAML 1.1\n", b"%TAG ! tag:x,2000:\n"]
+MARKS += [
+    b"&a ",
+    b"<<: *a",
+    b"!degrees ",
+    b"!!binary ",
+    b"[limits]\n",
+    b"[[pose]]\n",
+    b"[a.b.c]\n",
+    b" = ",
+]
+MARKS += [
+    b"\0",
+    b"\t",
+    b" ",
+    b"\n",
+    b"\r",
+    b"\n\n",
+    b"\x7f",
+    b"\x1b[2J",
+    b"\xff\xfe",
+    b"\xef\xbb\xbf",
+    b"\xc3",
+]
+MARKS += [b"\xed\xa0\x80", b"\xf4\x90\x80\x80"]
+MARKS += [
+    c.encode() for c in ("\u2028", "\u00a0", "\u202e", "\u200b", "\U0001f916", "e\u0301", "\ufeff")
+]
 TOKENS = [*NUMBERS, *VALUES, *MARKS]
 
 

@@ -130,10 +130,8 @@ def read_any_motion(path: Path) -> None:
     except InputError:
         return  # pieces
     assert (np.diff(points.times) > 0.0).all()
-    try:
+    if np.ptp(points.positions, axis=0).max() > 0.0:
         RetimedPath.of(points)
-    except InputError as error:
-        assert "no joint moves" in str(error)
 
 
 def read_certificate(path: Path) -> None:

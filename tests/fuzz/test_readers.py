@@ -11,6 +11,7 @@ An input that breaks a reader is left in pytest's folder, under the name that th
 
 from __future__ import annotations
 
+import contextlib
 import faulthandler
 import os
 import random
@@ -33,11 +34,9 @@ COUNT = int(os.environ.get("TIMEBOUND_FUZZ", "10000"))
 SEED = int(os.environ.get("TIMEBOUND_FUZZ_SEED", "20261126"))
 LONG = COUNT > 100_000
 HANG = 120.0  # s without an end in which no signal is answered: the process ends with its stack
-TEXTS = [reader for reader in READERS if reader.name != "npz"]
 KEPT = [
     pytest.param(reader, path, id=f"{reader.name}/{path.name}")
     for reader in READERS
-    if reader.name != "npz"
     for path in reader.seeds
 ]
 
@@ -130,7 +129,5 @@ def written(path: Path, data: bytes) -> None:
 
 
 def reader_quietly(reader: Reader, path: Path) -> None:
-    try:
+    with contextlib.suppress(Exception):  # it is judged when it is tried
         reader.read(path)
-    except Exception:  # noqa: S110  # judged in test_seeds
-        pass

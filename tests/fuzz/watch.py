@@ -51,7 +51,7 @@ _CODE = tuple(
 )
 
 
-class Fault(Exception):
+class Fault(Exception):  # noqa: N818  # what was found, not what failed
     """A reader ended, or did, what it must not."""
 
 

@@ -9,7 +9,6 @@ import zipfile
 from typing import Any
 
 import numpy as np
-
 from mutations import Mutator
 
 _NAMES = (

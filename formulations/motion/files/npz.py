@@ -7,13 +7,12 @@ The arrays are ``time`` (n_points,), ``position``, ``velocity``, ``acceleration`
 from __future__ import annotations
 
 import io
-import tokenize
+import re
 import zipfile
 import zlib
 from typing import Any
 
 import numpy as np
-from numpy.lib import format as npy
 
 from formulations.motion.files.checked import QUANTITIES, named, numbered
 from formulations.motion.files.motion_points import MotionPoints
@@ -23,6 +22,11 @@ from formulations.robot.text.files import known_names, shown
 _LARGEST = 1_000_000_000  # bytes of all arrays
 _LONGEST_ITEM = 4000  # bytes of a name or a number
 _MOST_MEMBERS = 1000  # far more than are known, for the bytes of numbers may look like an entry
+_LONGEST_HEADER = 10_000  # bytes
+_HEADER = re.compile(
+    rb"\s*\{\s*'descr'\s*:\s*'([<>|=]?[fiuUb]\d{1,9})'\s*,\s*'fortran_order'\s*:\s*(False|True)\s*,"
+    rb"\s*'shape'\s*:\s*\(([\d, ]*)\)\s*,?\s*\}\s*"
+)
 _KEYS = ("time", *QUANTITIES, "joint_names")
 
 
@@ -123,22 +127,14 @@ def _arrays(data: bytes, file: str) -> dict[str, Any]:
         raise
     except (zipfile.BadZipFile, zlib.error, EOFError, OSError, NotImplementedError, RuntimeError,
             ValueError, SyntaxError, TypeError, OverflowError, RecursionError, MemoryError,
-            UnicodeError, LookupError, tokenize.TokenError) as error:  # fmt: skip
+            UnicodeError, LookupError) as error:  # fmt: skip
         raise InputError(f"{file}: not an NPZ file: {type(error).__name__}: {error}") from None
     return arrays
 
 
 def _array(stream: Any, size: int, place: str) -> Any:
     """One array; what its header claims is compared with its size before more is unpacked."""
-    version = npy.read_magic(stream)
-    if version == (1, 0):
-        shape, by_columns, dtype = npy.read_array_header_1_0(stream)
-    elif version == (2, 0):
-        shape, by_columns, dtype = npy.read_array_header_2_0(stream)
-    else:
-        raise InputError(f"{place}: version {version} of the NPY format is not read")
-    if dtype.hasobject or dtype.kind not in "fiuUb":
-        raise InputError(f"{place}: expected numbers or text, got {dtype}")
+    shape, by_columns, dtype = _header(stream, place)
     rest = size - stream.tell()
     if dtype.itemsize > _LONGEST_ITEM:
         raise InputError(f"{place}: {dtype}: at most {_LONGEST_ITEM} bytes of a value are read")
@@ -153,3 +149,20 @@ def _array(stream: Any, size: int, place: str) -> Any:
     if count == 0:
         return np.empty(shape, dtype=dtype)
     return np.frombuffer(body, dtype=dtype).reshape(shape, order="F" if by_columns else "C")
+
+
+def _header(stream: Any, place: str) -> tuple[tuple[int, ...], bool, np.dtype[Any]]:
+    """Shape, whether columns come first, and type. NumPy's own reader evaluates the header and may warn."""
+    magic = stream.read(8)
+    if magic[:7] not in (b"\x93NUMPY\1", b"\x93NUMPY\2"):
+        raise InputError(f"{place}: expected an array of the NPY format 1 or 2, got {shown(magic)}")
+    length = int.from_bytes(stream.read(2 * magic[6]), "little")
+    if length > _LONGEST_HEADER:
+        raise InputError(f"{place}: a header of {length} bytes; at most {_LONGEST_HEADER} are read")
+    header = stream.read(length)
+    found = _HEADER.fullmatch(header)
+    if found is None:
+        raise InputError(f"{place}: expected numbers or text, got {shown(header.decode('latin-1'))}")
+    kind, by_columns, shape = (part.decode() for part in found.groups())
+    lengths = tuple(int(part) for part in shape.split(",") if part.strip())
+    return lengths, by_columns == "True", np.dtype(kind)

@@ -12,7 +12,7 @@ LARGEST = 1_000_000  # bytes; a problem file or a paper is a few kilobytes
 _MOST_PARTS = 32
 # tomllib takes a time that grows with the square of the parts of a key, and with their number for each key
 _MANY_PARTS = re.compile(
-    r"""(?<![\w"'-])(?:(?:[\w-]+|"[^"\n]*"|'[^'\n]*')[ \t]*\.[ \t]*){%d}""" % _MOST_PARTS
+    r"""(?<![\w"'-])(?:(?:[\w-]+|"[^"\n]*"|'[^'\n]*')[ \t]*\.[ \t]*)""" + f"{{{_MOST_PARTS}}}"
 )
 
 
