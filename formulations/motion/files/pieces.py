@@ -20,11 +20,12 @@ import numpy as np
 from formulations.motion.files.checked import named, numbered
 from formulations.motion.trajectory import Trajectory
 from formulations.problem.errors import InputError
-from formulations.robot.text.entry import TextEntry
+from formulations.robot.text.entry import LARGEST_NUMBER, TextEntry
 from formulations.robot.text.files import decode, shown
 from formulations.robot.text.trees import parse_json
 
 _LARGEST = 50_000_000  # bytes of a file that is read
+_LARGEST_TERM = 1e150  # rad; a coefficient times the power of the duration that belongs to it
 _MOST_NUMBERS = 3_000_000
 _MOST_COEFFICIENTS = 50  # per joint and piece
 _PIECES = re.compile(rb'"pieces"\s*:')
@@ -118,8 +119,8 @@ def read_pieces(data: bytes, file: str) -> tuple[Trajectory, tuple[str, ...]]:
             if key not in piece:
                 raise entry.error(f"{key} is missing")
         seconds = _number(piece["seconds"])
-        if seconds <= 0.0:
-            raise piece["seconds"].error(f"{seconds:g} is not positive")
+        if not 0.0 < seconds <= LARGEST_NUMBER:
+            raise piece["seconds"].error(f"{seconds:g} is not above 0 and up to {LARGEST_NUMBER:g}")
         durations.append(seconds)
         joints = piece["coefficients"].elements()
         rows.append([[_number(number) for number in joint.elements()] for joint in joints])
@@ -136,6 +137,14 @@ def read_pieces(data: bytes, file: str) -> tuple[Trajectory, tuple[str, ...]]:
     coefficients = np.array(
         [[numbers + [0.0] * (width - len(numbers)) for numbers in row] for row in rows]
     )
+    with np.errstate(over="ignore", invalid="ignore"):
+        sizes = np.abs(coefficients) * np.array(durations)[:, None, None] ** np.arange(width)
+    if not sizes.max() <= _LARGEST_TERM:
+        piece, joint, power = np.unravel_index(int(sizes.argmax()), sizes.shape)
+        raise entries["pieces"].error(
+            f"piece {piece + 1}, joint {joint + 1}: its term of power {power} reaches "
+            f"{sizes.max():g}; at most {_LARGEST_TERM:g} is read"
+        )
     passages = None
     if "passage_times" in entries:
         passages = np.array([_number(entry) for entry in entries["passage_times"].elements()])
