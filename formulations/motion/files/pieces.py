@@ -25,7 +25,6 @@ from formulations.robot.text.files import decode, shown
 from formulations.robot.text.trees import parse_json
 
 _LARGEST = 50_000_000  # bytes of a file that is read
-_LARGEST_TERM = 1e150  # rad; a coefficient times the power of the duration that belongs to it
 _MOST_NUMBERS = 3_000_000
 _MOST_COEFFICIENTS = 50  # per joint and piece
 _PIECES = re.compile(rb'"pieces"\s*:')
@@ -137,14 +136,6 @@ def read_pieces(data: bytes, file: str) -> tuple[Trajectory, tuple[str, ...]]:
     coefficients = np.array(
         [[numbers + [0.0] * (width - len(numbers)) for numbers in row] for row in rows]
     )
-    with np.errstate(over="ignore", invalid="ignore"):
-        sizes = np.abs(coefficients) * np.array(durations)[:, None, None] ** np.arange(width)
-    if not sizes.max() <= _LARGEST_TERM:
-        piece, joint, power = np.unravel_index(int(sizes.argmax()), sizes.shape)
-        raise entries["pieces"].error(
-            f"piece {piece + 1}, joint {joint + 1}: its term of power {power} reaches "
-            f"{sizes.max():g}; at most {_LARGEST_TERM:g} is read"
-        )
     passages = None
     if "passage_times" in entries:
         passages = np.array([_number(entry) for entry in entries["passage_times"].elements()])
