@@ -126,6 +126,7 @@ def accepted(
     """
     watch = _WATCH
     watch.folder, watch.names_files = str(path.parent), names_files
+    watch.faults.clear()
     line, refused = "", False
     start = time.process_time()
     try:

@@ -118,8 +118,10 @@ def read_pieces(data: bytes, file: str) -> tuple[Trajectory, tuple[str, ...]]:
             if key not in piece:
                 raise entry.error(f"{key} is missing")
         seconds = _number(piece["seconds"])
-        if not 0.0 < seconds <= LARGEST_NUMBER:
-            raise piece["seconds"].error(f"{seconds:g} is not above 0 and up to {LARGEST_NUMBER:g}")
+        if seconds <= 0.0:
+            raise piece["seconds"].error(f"{seconds:g} is not positive")
+        if seconds > LARGEST_NUMBER:
+            raise piece["seconds"].error(f"{seconds:g} is beyond {LARGEST_NUMBER:g}")
         durations.append(seconds)
         joints = piece["coefficients"].elements()
         rows.append([[_number(number) for number in joint.elements()] for joint in joints])
