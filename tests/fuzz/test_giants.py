@@ -13,7 +13,6 @@ from readers import BESIDE, READERS, SEEDS
 from test_readers import reader_quietly
 from watch import accepted, guarded
 
-PATIENCE = 20.0  # s of wall clock
 QUICK = 5.0  # s of processor time; most take a tenth of one
 _READERS = {reader.name: reader for reader in READERS}
 
@@ -39,11 +38,10 @@ def test_giants_are_refused_at_once(folder: Path, name: str) -> None:
                 path,
                 names_files=reader.names_files,
                 places=reader.places,
-                seconds=PATIENCE,
+                seconds=QUICK,
             )
     finally:
         size = path.stat().st_size
         path.unlink()
     print(f"\n{name}: {size / 1e6:.6g} MB, {seconds:.3f} s: {line}", end="")
     assert not answer
-    assert seconds < QUICK

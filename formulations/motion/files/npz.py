@@ -8,6 +8,7 @@ from __future__ import annotations
 
 import io
 import re
+import sys
 import zipfile
 import zlib
 from typing import Any
@@ -79,6 +80,9 @@ def read_npz(data: bytes, file: str) -> MotionPoints:
     names = arrays.pop("joint_names", np.array([], dtype=np.str_))
     if names.dtype.kind != "U" and names.size:
         raise InputError(f"{file}: joint_names: expected text, got {names.dtype}")
+    letters = np.ascontiguousarray(names.astype(names.dtype.newbyteorder("="))).view(np.uint32)
+    if names.size and letters.max() > sys.maxunicode:
+        raise InputError(f"{file}: joint_names: holds what is no letter")
     for key, array in arrays.items():
         if array.dtype.kind not in "fiu":
             raise InputError(f"{file}: {key}: expected numbers, got {array.dtype}")

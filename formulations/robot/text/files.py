@@ -22,6 +22,7 @@ _MARKS = (  # the longer marks first: that of UTF-32 begins with that of UTF-16
     (b"\xff\xfe", "UTF-16"),
     (b"\xfe\xff", "UTF-16"),
 )
+_GROWTH = 100_000  # bytes
 _SHOWN = 50  # characters of a value in a message
 _COMPARED = 100  # characters of a name that are compared with known names
 _LONGEST_NUMBER = 10_000  # characters
@@ -58,7 +59,8 @@ def read_bytes(path: str | Path, *, largest: int) -> bytes:
         if mode.st_size > largest:
             raise InputError(f"{path}: {mode.st_size} bytes; at most {largest} are read")
         with open(path, "rb") as stream:
-            data = stream.read(largest + 1)
+            # the memory asked for is what the file takes, and a little more if it grows meanwhile
+            data = stream.read(min(largest, mode.st_size + _GROWTH) + 1)
     except InputError:
         raise
     except FileNotFoundError:
@@ -67,8 +69,8 @@ def read_bytes(path: str | Path, *, largest: int) -> bytes:
         raise InputError(f"{path}: cannot be read: {error.strerror or error}") from None
     except (TypeError, ValueError):  # a null character in the name, say
         raise InputError(f"{shown(path)}: not the name of a file") from None
-    if len(data) > largest:  # a file that grew meanwhile
-        raise InputError(f"{path}: at most {largest} bytes are read")
+    if len(data) > min(largest, mode.st_size + _GROWTH):
+        raise InputError(f"{path}: grew beyond {len(data) - 1} bytes while it was read")
     return data
 
 
