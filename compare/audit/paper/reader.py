@@ -152,8 +152,10 @@ def _rows(paper: Paper, table: dict[str, Any]) -> list[PrintedTimes]:
     where, by, limits = table["where"], table.get("by", ""), _limits(paper, table)
     joints, times = table["joints"], table["times"]
     totals = table.get("totals", [None] * len(joints))
-    if not joints or not len(joints) == len(times) == len(totals):
-        raise InputError(f"table: {where}: joints, times and totals are empty or differ in length")
+    if not joints:
+        raise InputError(f"table: {where}: joints is empty")
+    if not len(joints) == len(times) == len(totals):
+        raise InputError(f"table: {where}: joints, times and totals differ in length")
     rows = []
     for joint, vector, total in zip(joints, times, totals, strict=True):
         joint = None if joint == "all" else joint
