@@ -131,7 +131,7 @@ def accepted(
     watch.folder, watch.names_files = str(path.parent), names_files
     watch.faults.clear()
     line, refused = "", False
-    start = time.process_time()
+    start = time.thread_time()
     try:
         signal.setitimer(signal.ITIMER_PROF, seconds)
         signal.setitimer(signal.ITIMER_REAL, WAITING * seconds)
@@ -148,7 +148,7 @@ def accepted(
         if isinstance(error, KeyboardInterrupt):
             raise
         raise Fault(f"{type(error).__name__}: {error!s:.300}") from error
-    spent = time.process_time() - start
+    spent = time.thread_time() - start
     if watch.faults:  # a reader caught it
         raise Fault(watch.faults.pop())
     if refused:
