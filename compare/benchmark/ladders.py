@@ -2,10 +2,9 @@
 
 from __future__ import annotations
 
-from pathlib import Path
-from typing import Any, NotRequired, TypedDict, cast
+from typing import NotRequired, TypedDict, cast
 
-from formulations import InputError, Ladder
+from formulations import Ladder
 from formulations.diagnosis import diagnose
 
 
@@ -55,46 +54,3 @@ def ladder_record(ladder: Ladder) -> LadderRecord:
     if ladder.free_form is not None:
         found["held_up_by"] = diagnose(ladder.problem, ladder.free_form).lines()
     return found
-
-
-def checked_ladder_record(data: Any, path: Path) -> LadderRecord:
-    """Return plain data as the record that it is.
-
-    Parameters
-    ----------
-    data : object
-        What was read from a JSON file.
-    path : Path
-        The file, for the message.
-
-    Returns
-    -------
-    LadderRecord
-        The same data.
-
-    Raises
-    ------
-    InputError
-        If an entry is missing or is of another type.
-    """
-    try:
-        for key, kind in (("problem", str), ("ladder", dict), ("durations", dict)):
-            if not isinstance(data[key], kind):
-                raise ValueError(f"{key}: not a {kind.__name__}")
-        for key, rung in data["ladder"].items():
-            for name, kinds in _RUNG.items():
-                if not isinstance(rung[name], kinds):
-                    raise ValueError(f"{key}: {name}: {rung[name]!r}")
-    except (KeyError, TypeError, ValueError) as error:
-        what = f"{error.args[0]}: missing" if isinstance(error, KeyError) else str(error)
-        raise InputError(f"{path}: not a ladder: {what}") from None
-    return cast(LadderRecord, data)
-
-
-_RUNG: dict[str, Any] = {
-    "seconds": (float, int, type(None)),
-    "kind": str,
-    "status": str,
-    "certified": bool,
-    "note": str,
-}

@@ -8,8 +8,11 @@ from pathlib import Path
 from typing import Any
 
 from compare.check_certificate.answers import BadInput, need
+from compare.check_certificate.claim import FORMAT
 
 _LARGEST_FILE = 400_000_000  # bytes
+_MOST_LISTS = 10_000_000
+_HEAD = 10_000  # bytes in which a certificate names its format
 
 
 def read(path: Path) -> Any:
@@ -37,7 +40,12 @@ def read(path: Path) -> Any:
     try:
         if path.stat().st_size > _LARGEST_FILE:
             raise BadInput(f"{path}: larger than {_LARGEST_FILE} bytes")
-        return json.loads(path.read_text("utf-8"), parse_constant=no_constant)
+        data = path.read_bytes()
+        if FORMAT.encode() not in data[:_HEAD]:
+            raise BadInput(f"{path}: not a certificate: {FORMAT!r} is not in its first {_HEAD} bytes")
+        if data.count(b"[") > _MOST_LISTS:
+            raise BadInput(f"{path}: more than {_MOST_LISTS} events and rows")
+        return json.loads(data.decode("utf-8"), parse_constant=no_constant)
     except OSError as error:
         raise BadInput(f"{path}: cannot be read: {error.strerror or error}") from None
     except (ValueError, RecursionError) as error:

@@ -46,7 +46,7 @@ def verify(data: Any, *, show: bool = False) -> str:
         "every-motion": Relaxation,
     }
     if claim.family not in trees:
-        raise BadInput(f"family: {claim.family:.40} is not one of {', '.join(trees)}")
+        raise BadInput(f"family: {claim.family!r:.40} is not one of {', '.join(trees)}")
     tree = trees[claim.family](claim)
     discards = 0 if tree.void else tree.replay()
     every = isinstance(tree, Relaxation)

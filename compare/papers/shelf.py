@@ -15,6 +15,7 @@ from typing import Any
 from compare.benchmark.records.provenance import machine, versions_text
 from compare.files import write_json
 from compare.papers.item import Item
+from compare.plain_data import read_json, typed
 
 OK, FAILED, DIED, MISSING = "ok", "failed", "died", "not made"
 
@@ -143,10 +144,11 @@ def kept(folder: Path, paper: str, item: Item) -> Made | None:
         None if nothing is stored, or nothing that can be read.
     """
     try:
-        found = json.loads(_path(folder, paper, item).read_text("utf-8"))
-        return Made(**{name: found[name] for name in Made.__annotations__})
-    except (OSError, ValueError, KeyError, TypeError):
+        found = read_json(_path(folder, paper, item), dict[str, Any], "an item")
+        made: Made = typed(Made, {name: found[name] for name in Made.__annotations__ if name in found})
+    except ValueError:  # an InputError too
         return None
+    return made
 
 
 def finished(folder: Path, paper: str, item: Item, full: bool) -> bool:

@@ -7,7 +7,7 @@ import json
 from collections.abc import Iterable
 from dataclasses import dataclass
 from pathlib import Path
-from typing import Any
+from typing import Any, TypedDict
 
 import jinja2
 
@@ -29,6 +29,7 @@ from compare.benchmark.statistics import (
 )
 from compare.engines import Engine, each
 from compare.files import write_text
+from compare.plain_data import read_json
 from compare.report.figures.case import draw_case
 from compare.report.papers_at_a_glance import papers_at_a_glance
 from compare.studies.study import STUDIES
@@ -102,7 +103,7 @@ def render(pool: Engine, folder: Path, problems: dict[str, Problem], settings: S
     }
     context |= papers_context(store, folder, context["cases"])
     bias = folder / "bias.json"
-    context["bias"] = json.loads(bias.read_text("utf-8"))["summary"] if bias.exists() else {}
+    context["bias"] = read_json(bias, _Bias, "a study")["summary"] if bias.exists() else {}
     context["figures"] = {
         case: {name: (f"figures/{case}-{name}", caption) for name, caption in FIGURES.items()}
         for case in problems
@@ -270,11 +271,17 @@ def swarms_in(rows: Iterable[Row]) -> dict[str, _Swarm]:
     return {name: _Swarm.of(ran[name]) for name in order}
 
 
+class _Bias(TypedDict):
+    """What the report shows of a study of bias: by swarm and problem."""
+
+    summary: dict[str, dict[str, float | None]]
+
+
 def _parameters(row: Row) -> dict[str, Any]:
     """Parameters that a row states; none if they are not what `grade` writes."""
     try:
         found = json.loads(row.parameters)
-    except ValueError:
+    except (ValueError, RecursionError):
         return {}
     return found if isinstance(found, dict) else {}
 

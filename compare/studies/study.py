@@ -18,9 +18,9 @@ import io
 import json
 import math
 from collections.abc import Callable, Iterable, Iterator, Sequence
-from dataclasses import asdict, dataclass, fields
+from dataclasses import asdict, dataclass, fields, replace
 from pathlib import Path
-from typing import Any, ClassVar, Generic, Protocol, TypeVar, get_type_hints
+from typing import Any, ClassVar, Generic, Protocol, TypedDict, TypeVar, get_type_hints
 
 import matplotlib as mpl
 import matplotlib.pyplot as plt
@@ -29,6 +29,7 @@ from matplotlib.figure import Figure
 from compare.benchmark.records.provenance import machine, problem_digest, versions_text
 from compare.engines import Engine, each
 from compare.files import write_json, write_text
+from compare.plain_data import parse_json, typed, whole_lines
 from compare.screen import bar
 from compare.sources import source_digest
 from formulations import InputError, Problem, family_optimum
@@ -258,25 +259,32 @@ def _finite(value: Any) -> Any:
 
 def _finished(study: Study[R], path: Path, wanted: set[str]) -> dict[str, list[R]]:
     """The wanted calls among those on disk; a last line cut short is passed over."""
-    try:
-        text = path.read_text("utf-8")
-    except FileNotFoundError:
-        return {}
-    kinds = get_type_hints(study.row)
     found = {}
-    for line in text[: text.rfind("\n") + 1].splitlines():
-        try:
-            entry = json.loads(line)
-            if entry["call"] in wanted:
-                found[entry["call"]] = [study.row(**_typed(kinds, row)) for row in entry["rows"]]
-        except (ValueError, KeyError, TypeError) as error:
-            raise InputError(f"{path}: holds no rows of {study.name}: {error}") from None
+    for number, line in whole_lines(path):
+        where = f"{path}: line {number}: holds no rows of {study.name}"
+        entry = parse_json(line, _Line, where)
+        if entry["call"] in wanted:
+            try:
+                found[entry["call"]] = [_row(study.row, row) for row in entry["rows"]]
+            except ValueError as error:
+                raise InputError(f"{where}: {error}") from None
     return found
 
 
-def _typed(kinds: dict[str, Any], row: dict[str, Any]) -> dict[str, Any]:
-    """Text stands for a number that is not finite, where a number is expected."""
-    return {
-        name: float(value) if isinstance(value, str) and kinds[name] in (float, float | None) else value
-        for name, value in row.items()
+class _Line(TypedDict):
+    """What a finished call left."""
+
+    call: str
+    rows: list[dict[str, Any]]
+
+
+def _row(kind: type[R], stored: dict[str, Any]) -> R:
+    """One row; text stands for a number that is not finite, where a number is expected."""
+    kinds = get_type_hints(kind)
+    odd = {
+        name: float(value)
+        for name, value in stored.items()
+        if isinstance(value, str) and kinds.get(name) in (float, float | None)
     }
+    found: R = typed(kind, stored | dict.fromkeys(odd, 0.0))
+    return replace(found, **odd)

@@ -2,12 +2,22 @@
 
 from __future__ import annotations
 
+_LONGEST = 1000  # characters of a message; the rest of a longer one is left out
+
 
 class InputError(ValueError):
-    """What a person typed or wrote into a file cannot be used; commands exit with code 2."""
+    """What a person typed or wrote into a file cannot be used; commands exit with code 2.
+
+    The message is one short line that a terminal can show, whatever names and files contain.
+    """
 
     def __init__(self, message: str) -> None:
-        super().__init__(" ".join(message.split()))  # one line, whatever names and files contain
+        line = " ".join(message.split())
+        if not line.isprintable():
+            line = "".join(c if c.isprintable() else ascii(c)[1:-1] for c in line)
+        if len(line) > _LONGEST:
+            line = f"{line[: _LONGEST // 2]} ... {line[5 - _LONGEST // 2 :]}"
+        super().__init__(line)
 
 
 class UnsupportedProblem(InputError):  # noqa: N818  # a refusal, not a failure

@@ -13,7 +13,7 @@ from formulations.robot.text.files import known_names, shown
 from formulations.robot.text.xml_tree import Element, attribute, parse_xml, place
 from formulations.robot.urdf import Urdf
 
-LARGEST_SRDF = 10_000_000  # bytes
+LARGEST_SRDF = 5_000_000  # bytes
 _PARTS = ("joint", "link", "chain", "group", "passive_joint")
 
 

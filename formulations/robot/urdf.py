@@ -20,7 +20,7 @@ from formulations.robot.text.entry import LARGEST_NUMBER
 from formulations.robot.text.files import known_names, shown
 from formulations.robot.text.xml_tree import Element, attribute, number, numbers, parse_xml, place
 
-LARGEST_URDF = 10_000_000  # bytes; a humanoid with all its parts has a fifth of a million
+LARGEST_URDF = 5_000_000  # bytes; a humanoid with all its parts has a fifth of a million
 MOST_JOINTS = 1000
 
 _MOVING = tuple(str(kind) for kind in JointKind)

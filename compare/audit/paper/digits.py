@@ -16,6 +16,7 @@ import numpy as np
 from formulations import InputError
 from formulations.problem.arrays import Array
 
+_SMALLEST, _LARGEST = 1e-12, 1e9  # no paper about an arm prints less or more
 _UNIT_ROUNDING = 1e-15  # relative: a rounded number times a unit of angle, in floating point
 
 
@@ -68,6 +69,8 @@ def printed(key: str, raw: Any) -> Printed:
         raise InputError(f"{key}: {raw!r:.50} is not a number") from None
     if not number.is_finite():
         raise InputError(f"{key}: {raw!r:.50} is not finite")
+    if number and not _SMALLEST <= abs(number) <= _LARGEST:
+        raise InputError(f"{key}: {raw!r:.50} is not from {_SMALLEST:g} to {_LARGEST:g} in size")
     half = 0.0
     if isinstance(raw, str):
         half = float(Decimal((0, (5,), int(number.as_tuple().exponent) - 1)))

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import tomllib
 from dataclasses import replace
 from typing import Any
 
@@ -21,10 +20,13 @@ from compare.audit.paper.records import (
     Total,
 )
 from formulations import FAMILIES, InputError
-from formulations.arms import ARMS
+from formulations.arms import ARMS, load_arm
 from formulations.arms.arm import METRES
 from formulations.motion.verdict import QUANTITIES
 from formulations.problem.arrays import Array
+from formulations.problem.toml_file.toml_text import parse_toml
+
+_MOST_JOINTS = 100  # of an arm whose waypoints are not printed
 
 
 def parse_papers(text: str, name: str) -> list[Paper]:
@@ -46,10 +48,7 @@ def parse_papers(text: str, name: str) -> list[Paper]:
     InputError
         One line that names the key.
     """
-    try:
-        data = tomllib.loads(text)
-    except (ValueError, RecursionError) as error:
-        raise InputError(f"{name}: not valid TOML: {error}") from None
+    data = parse_toml(text, name)
     try:
         check_keys(data)
         paper = _paper(data, name)
@@ -76,11 +75,16 @@ def _paper(data: dict[str, Any], name: str) -> Paper:
     waypoints = half = None
     count = table.get("count", 0)
     if "rows" in table:
-        width = len(table["rows"][0])
-        grid = [row(f"waypoints: row {i + 1}", r, width) for i, r in enumerate(table["rows"])]
+        grid = [row(f"waypoints: row {i + 1}", r) for i, r in enumerate(table["rows"])]
+        if not grid or len({len(r) for r in grid}) > 1:
+            raise InputError("waypoints: rows: expected rows of equal length")
         waypoints = np.array([values(r) for r in grid]) * UNITS[unit]
         half = np.array([halves(r) for r in grid]) * UNITS[unit]
         count = len(grid)
+        if arm is not None and waypoints.shape[1] != load_arm(arm).dof:
+            raise InputError(
+                f"arm: {arm} has {load_arm(arm).dof} joints, the waypoints have {waypoints.shape[1]}"
+            )
     dof = None if waypoints is None else waypoints.shape[1]
     stated = {s.name: s for s in (_stated(t, dof) for t in data.get("limits", []))}
     shown = next((t["unit"] for t in data.get("limits", [])), unit)
@@ -130,9 +134,15 @@ def _variant(paper: Paper, table: dict[str, Any]) -> Paper:
         raise InputError("variant: there are no waypoints to vary")
     number = printed("variant: value", table["value"])
     waypoints, half = paper.waypoints.copy(), paper.halves.copy()
+    for key, most in zip(("waypoint", "joint"), waypoints.shape, strict=True):
+        if not 1 <= table[key] <= most:
+            raise InputError(f"variant: {key}: {table[key]!r:.50} is not one of 1 to {most}")
     at = (table["waypoint"] - 1, table["joint"] - 1)
     # in the unit of the waypoints: the printed one tells it
-    unit = next(u for u in UNITS.values() if np.isclose(abs(waypoints[at]), abs(number.value) * u))
+    printed_in = [u for u in UNITS.values() if np.isclose(abs(waypoints[at]), abs(number.value) * u)]
+    if not printed_in:
+        raise InputError(f"variant: value: {number} and the printed value differ in more than the sign")
+    unit = printed_in[0]
     waypoints[at], half[at] = number.value * unit, number.half * unit
     return replace(paper, name=table["name"], waypoints=waypoints, halves=half, claims=(), points=())
 
@@ -142,6 +152,8 @@ def _rows(paper: Paper, table: dict[str, Any]) -> list[PrintedTimes]:
     where, by, limits = table["where"], table.get("by", ""), _limits(paper, table)
     joints, times = table["joints"], table["times"]
     totals = table.get("totals", [None] * len(joints))
+    if not joints:
+        raise InputError(f"table: {where}: joints is empty")
     if not len(joints) == len(times) == len(totals):
         raise InputError(f"table: {where}: joints, times and totals differ in length")
     rows = []
@@ -179,7 +191,7 @@ def _stated(table: dict[str, Any], dof: int | None) -> StatedLimits:
         key = f"limits: {name}: {quantity}"
         digits = row(key, raw if isinstance(raw, list) else [raw], width)
         numbers = values(digits)
-        if not (numbers > 0.0).all():
+        if not (numbers * unit > 0.0).all():
             raise InputError(f"{key}: {numbers.min():g} is not positive")
         rows.append(numbers * unit)
         blur.append(reach(digits) * unit)
@@ -194,6 +206,9 @@ def _stated(table: dict[str, Any], dof: int | None) -> StatedLimits:
         position = np.array([values(r) for r in ranges]) * unit
         around = np.array([reach(r) for r in ranges]) * unit
     joint = table["joint"] - 1 if "joint" in table else None
+    most = _MOST_JOINTS if dof is None else dof
+    if joint is not None and not 0 <= joint < most:
+        raise InputError(f"limits: {name}: joint: {table['joint']!r:.50} is not one of 1 to {most}")
     return StatedLimits(name, joint, np.stack(rows), position, np.stack(blur), around)
 
 

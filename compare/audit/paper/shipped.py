@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import os
 import tomllib
 from functools import cache
 from importlib.resources import files
@@ -11,6 +12,8 @@ from typing import Any
 from compare.audit.paper.reader import parse_papers
 from compare.audit.paper.records import Paper
 from formulations import InputError
+from formulations.problem.toml_file.toml_text import LARGEST
+from formulations.robot.text.files import decode, read_bytes
 
 
 def _shipped_files() -> dict[str, tuple[str, str]]:
@@ -73,15 +76,11 @@ def load_papers(name_or_file: str) -> list[Paper]:
     if case in PAPERS:
         return list(_shipped(case))
     path = Path(name_or_file)
-    try:
-        text = path.read_text("utf-8")
-    except FileNotFoundError:
+    if not os.path.exists(path):  # Path.exists raises for a name that is too long
         raise InputError(
             f"{path}: no such file, and no paper of that name (papers: {', '.join(PAPERS)})"
-        ) from None
-    except (OSError, ValueError) as error:
-        raise InputError(f"{path}: cannot be read: {error}") from None
-    return parse_papers(text, path.stem)
+        )
+    return parse_papers(decode(read_bytes(path, largest=LARGEST), str(path)), path.stem)
 
 
 @cache

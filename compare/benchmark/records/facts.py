@@ -7,15 +7,67 @@ from collections.abc import Iterator, Mapping
 from contextlib import contextmanager
 from dataclasses import asdict
 from pathlib import Path
-from typing import Any
+from typing import Any, TypedDict, cast
 
+from compare.audit.judged import JudgedTimes
 from compare.benchmark.known_times import KnownTime
-from compare.benchmark.ladders import LadderRecord, checked_ladder_record
+from compare.benchmark.ladders import LadderRecord
 from compare.benchmark.records.database import documents
 from compare.benchmark.records.database.connection import Database
 from compare.benchmark.records.proof_cache import ProofKey
 from compare.benchmark.records.settings import Settings
+from compare.plain_data import parse_json, typed_or_line
 from formulations import InputError
+
+
+class Finding(TypedDict):
+    """A finding of an audit, as `compare.audit` writes it."""
+
+    kind: str
+    meaning: str
+    fault: bool
+    proved: bool
+    where: str
+    text: str
+
+
+class AuditedPaper(TypedDict):
+    """The audit of one paper, or of one variant of it."""
+
+    paper: str
+    title: str
+    source: str
+    notes: str
+    unit: str
+    motions: list[dict[str, Any]]  # JudgedTimes as plain data
+    findings: list[Finding]
+
+
+class AuditRecord(TypedDict):
+    """The audits of a paper and its variants, and what they were made of."""
+
+    digest: str
+    versions: str
+    machine: str
+    audits: list[AuditedPaper]
+
+
+def require_judged(record: AuditRecord, where: str) -> None:
+    """Make sure that the motions of an audit are `JudgedTimes` as plain data.
+
+    Parameters
+    ----------
+    record : AuditRecord
+    where : str
+        Start of the message.
+
+    Raises
+    ------
+    InputError
+        One is not; the message names the entry.
+    """
+    for audit in record["audits"]:
+        typed_or_line(list[JudgedTimes], audit["motions"], where)
 
 
 class StoredFacts:
@@ -46,13 +98,11 @@ class StoredFacts:
 
     def settings(self) -> Settings:
         """What was asked for. Raises InputError if the folder holds no comparison."""
-        found = self._documents("settings")
+        found = self._documents("settings", Settings)
         if not found:
             raise InputError(f"{self.folder}: holds no comparison")
-        try:
-            return Settings.from_json(found[""])
-        except ValueError as error:
-            raise InputError(f"{self.file}: {error}") from None
+        (settings,) = found.values()
+        return cast(Settings, settings)
 
     def write_ladder(self, case: str, ladder: LadderRecord) -> None:
         """Keep the bounds of a case.
@@ -66,8 +116,7 @@ class StoredFacts:
 
     def ladders(self) -> dict[str, LadderRecord]:
         """Bounds by case, in alphabetical order."""
-        found = self._documents("ladder")
-        return {case: checked_ladder_record(data, self.file) for case, data in found.items()}
+        return self._documents("ladder", LadderRecord)
 
     def write_proof(self, key: ProofKey, data: Any) -> None:
         """Keep what was proved, for later comparisons in this folder and in those it is merged into.
@@ -111,13 +160,7 @@ class StoredFacts:
 
     def known_times(self) -> dict[str, list[KnownTime]]:
         """What is known of the task of each case."""
-        try:
-            return {
-                case: [KnownTime(**line) for line in lines]
-                for case, lines in self._documents("known times").items()
-            }
-        except TypeError as error:
-            raise InputError(f"{self.file}: not a table of known times: {error}") from None
+        return self._documents("known times", list[KnownTime])
 
     def write_instance(self, name: str, data: dict[str, Any]) -> None:
         """Keep what is known of an instance, as plain data.
@@ -132,7 +175,7 @@ class StoredFacts:
 
     def instances(self) -> dict[str, dict[str, Any]]:
         """Instances by name, as plain data."""
-        return self._documents("instance")
+        return self._documents("instance", dict[str, Any])
 
     def write_audit(self, paper: str, made_of: Mapping[str, str], audits: list[dict[str, Any]]) -> None:
         """Keep the audits of a paper and its variants.
@@ -149,7 +192,10 @@ class StoredFacts:
 
     def audits(self) -> dict[str, dict[str, Any]]:
         """By paper: what its audit was made of, and ``audits``, a list."""
-        return self._documents("audit")
+        found = self._documents("audit", AuditRecord)
+        for name, record in found.items():
+            require_judged(record, f"{self.file}: audit {name}")
+        return found
 
     @contextmanager
     def _reading(self) -> Iterator[sqlite3.Connection]:
@@ -160,11 +206,16 @@ class StoredFacts:
             except ValueError as error:
                 raise InputError(f"{self.file}: {error}") from None
 
-    def _documents(self, kind: str) -> dict[str, Any]:
+    def _documents(self, what: str, kind: Any) -> dict[str, Any]:
+        """Documents of one kind by name, each entry of the type that it must have."""
         if not self.database.exists():
             return {}
         with self._reading() as connection:
-            return documents.documents(connection, kind)
+            texts = documents.documents(connection, what)
+        where = f"{self.file}: {what}"
+        return {
+            name: parse_json(text, kind, f"{where} {name}".rstrip()) for name, text in texts.items()
+        }
 
     def _write(self, kind: str, name: str, data: Any) -> None:
         with self.database.writing() as connection:

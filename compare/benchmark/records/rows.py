@@ -15,6 +15,7 @@ from compare.benchmark.protocol import Coordinates, Track, variant
 from compare.benchmark.records.cells import cell_text
 from formulations.problem.arrays import Array
 
+_LARGEST = 1_000_000_000  # bytes
 TIMING_COLUMNS = ("seconds_algorithm", "seconds_objective")
 """Columns that differ when the same run is repeated: they hold measured times."""
 

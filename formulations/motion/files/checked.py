@@ -11,6 +11,7 @@ from formulations.robot.text.entry import LARGEST_NUMBER
 from formulations.robot.text.files import shown
 
 QUANTITIES = ("position", "velocity", "acceleration")
+_LEAST_STEP = 1e-15  # s; a quintic between points closer than this has no finite coefficients
 
 
 def checked(points: MotionPoints, file: str) -> MotionPoints:
@@ -53,12 +54,12 @@ def checked(points: MotionPoints, file: str) -> MotionPoints:
             value = array[point, joint]
             wrong = f"is beyond {LARGEST_NUMBER:g}" if np.isfinite(value) else "is not finite"
             raise InputError(f"{file}: point {point + 1}: {name}{of}: {value:g} {wrong}")
-    late = np.flatnonzero(np.diff(points.times) <= 0.0)
+    late = np.flatnonzero(np.diff(points.times) < _LEAST_STEP)
     if len(late):
         k = int(late[0]) + 1
         raise InputError(
             f"{file}: times must increase: point {k + 1} is at {points.times[k]:.9g} s, point {k} "
-            f"at {points.times[k - 1]:.9g} s"
+            f"at {points.times[k - 1]:.9g} s, less than {_LEAST_STEP:g} s before"
         )
     return points
 

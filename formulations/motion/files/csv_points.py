@@ -8,6 +8,7 @@ may all be missing. Joints without names are counted from 1.
 
 from __future__ import annotations
 
+import contextlib
 import re
 
 import numpy as np
@@ -73,16 +74,15 @@ def read_csv(data: bytes, file: str, *, records: bool = True) -> MotionPoints:
     InputError
         Names line and column.
     """
-    found = csv_records(data) if records else None
-    if found is None:
-        require_small(data, file)
-    header, table = _table(found.document if found else data, file)
+    found, values = csv_records(data) if records else None, None
     if found is not None:
-        values = found.columns(table[0]) if len(table) == 1 else None
-        if values is None:
-            return read_csv(data, file, records=False)
-        table = values
-    return _points(header, table, file)
+        with contextlib.suppress(InputError):  # its line is that of the document, not that of the file
+            header, table = _table(found.document, file)
+            values = found.columns(table[0]) if len(table) == 1 else None
+        if values is not None:
+            return _points(header, values, file)
+    require_small(data, file, found)
+    return _points(*_table(data, file), file)
 
 
 def _table(data: bytes, file: str) -> tuple[tuple[str, ...], Array]:

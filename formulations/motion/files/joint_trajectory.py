@@ -23,7 +23,13 @@ import numpy as np
 from formulations.motion.files.checked import named, numbered, stacked
 from formulations.motion.files.decimals import decimals_of, write_records
 from formulations.motion.files.motion_points import MotionPoints
-from formulations.motion.files.records import Records, json_records, require_small, yaml_records
+from formulations.motion.files.records import (
+    LARGEST_IRREGULAR,
+    Records,
+    json_records,
+    require_small,
+    yaml_records,
+)
 from formulations.problem.arrays import Array
 from formulations.problem.errors import InputError
 from formulations.robot.text.entry import TextEntry
@@ -160,11 +166,15 @@ def _read(
 ) -> MotionPoints:
     found = split(data) if split else None
     if found is not None:
-        message = _message(parse(decode(found.document, file), file))
-        points = message.points(found)
+        try:
+            points = _message(parse(decode(found.document, file), file)).points(found)
+        except InputError:
+            if len(data) > LARGEST_IRREGULAR:
+                raise
+            points = None  # read anew: the line is that of the document, not that of the file
         if points is not None:
             return points
-    require_small(data, file)
+    require_small(data, file, found)
     points = _message(parse(decode(data, file), file)).points()
     assert points is not None
     return points
@@ -193,11 +203,12 @@ class _Message:
             seconds = next(parts)[:, 0]
             if nanoseconds is not None:
                 nanoseconds = next(parts)[:, 0]
-                if not (np.array_equal(np.rint(seconds), seconds) and (nanoseconds % 1.0 == 0.0).all()):
+                if not all(np.array_equal(np.rint(part), part) for part in (seconds, nanoseconds)):
                     return None
             values = tuple(None if value is None else next(parts) for value in values)
         if nanoseconds is not None:
-            seconds = (seconds * 1e9 + nanoseconds) / 1e9  # correctly rounded: both are whole
+            with np.errstate(over="ignore"):  # an infinite time is refused with the others
+                seconds = (seconds * 1e9 + nanoseconds) / 1e9  # correctly rounded: both are whole
         positions, velocities, accelerations = values
         assert positions is not None
         return MotionPoints(seconds, positions, velocities, accelerations, named(self.names, "joint_"))

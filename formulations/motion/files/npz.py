@@ -7,12 +7,13 @@ The arrays are ``time`` (n_points,), ``position``, ``velocity``, ``acceleration`
 from __future__ import annotations
 
 import io
+import re
+import sys
 import zipfile
 import zlib
 from typing import Any
 
 import numpy as np
-from numpy.lib import format as npy
 
 from formulations.motion.files.checked import QUANTITIES, named, numbered
 from formulations.motion.files.motion_points import MotionPoints
@@ -20,6 +21,13 @@ from formulations.problem.errors import InputError
 from formulations.robot.text.files import known_names, shown
 
 _LARGEST = 1_000_000_000  # bytes of all arrays
+_LONGEST_ITEM = 4000  # bytes of a name or a number
+_MOST_MEMBERS = 1000  # far more than are known, for the bytes of numbers may look like an entry
+_LONGEST_HEADER = 10_000  # bytes
+_HEADER = re.compile(
+    rb"\s*\{\s*'descr'\s*:\s*'([<>|=]?[fiuUb]\d{1,9})'\s*,\s*'fortran_order'\s*:\s*(False|True)\s*,"
+    rb"\s*'shape'\s*:\s*\(([\d, ]*)\)\s*,?\s*\}\s*"
+)
 _KEYS = ("time", *QUANTITIES, "joint_names")
 
 
@@ -72,6 +80,9 @@ def read_npz(data: bytes, file: str) -> MotionPoints:
     names = arrays.pop("joint_names", np.array([], dtype=np.str_))
     if names.dtype.kind != "U" and names.size:
         raise InputError(f"{file}: joint_names: expected text, got {names.dtype}")
+    letters = np.ascontiguousarray(names.astype(names.dtype.newbyteorder("="))).view(np.uint32)
+    if names.size and letters.max() > sys.maxunicode:
+        raise InputError(f"{file}: joint_names: holds what is no letter")
     for key, array in arrays.items():
         if array.dtype.kind not in "fiu":
             raise InputError(f"{file}: {key}: expected numbers, got {array.dtype}")
@@ -100,6 +111,8 @@ def read_npz(data: bytes, file: str) -> MotionPoints:
 def _arrays(data: bytes, file: str) -> dict[str, Any]:
     """All arrays; their sizes are known before memory is asked for."""
     arrays = {}
+    if data.count(b"PK\1\2") > _MOST_MEMBERS:  # entries of its directory
+        raise InputError(f"{file}: more than {_MOST_MEMBERS} arrays")
     try:
         with zipfile.ZipFile(io.BytesIO(data)) as archive:
             members = archive.infolist()
@@ -112,7 +125,8 @@ def _arrays(data: bytes, file: str) -> dict[str, Any]:
                     raise InputError(f"{file}: unknown array {shown(key)}; {known_names(key, _KEYS)}")
                 if key in arrays:
                     raise InputError(f"{file}: array {shown(key)} is there twice")
-                arrays[key] = _array(archive.read(member), f"{file}: {key}")
+                with archive.open(member) as stream:
+                    arrays[key] = _array(stream, member.file_size, f"{file}: {key}")
     except InputError:
         raise
     except (zipfile.BadZipFile, zlib.error, EOFError, OSError, NotImplementedError, RuntimeError,
@@ -122,23 +136,37 @@ def _arrays(data: bytes, file: str) -> dict[str, Any]:
     return arrays
 
 
-def _array(data: bytes, place: str) -> Any:
-    stream = io.BytesIO(data)
-    version = npy.read_magic(stream)
-    if version == (1, 0):
-        shape, by_columns, dtype = npy.read_array_header_1_0(stream)
-    elif version == (2, 0):
-        shape, by_columns, dtype = npy.read_array_header_2_0(stream)
-    else:
-        raise InputError(f"{place}: version {version} of the NPY format is not read")
-    if dtype.hasobject or dtype.kind not in "fiuUb":
-        raise InputError(f"{place}: expected numbers or text, got {dtype}")
-    body = data[stream.tell() :]
+def _array(stream: Any, size: int, place: str) -> Any:
+    """One array; what its header claims is compared with its size before more is unpacked."""
+    shape, by_columns, dtype = _header(stream, place)
+    rest = size - stream.tell()
+    if dtype.itemsize > _LONGEST_ITEM:
+        raise InputError(f"{place}: {dtype}: at most {_LONGEST_ITEM} bytes of a value are read")
     count = 1
     for length in shape:
         count *= int(length)
-    if len(shape) > 2 or count * dtype.itemsize != len(body):
-        raise InputError(f"{place}: the shape {shape} of {dtype} does not fit {len(body)} bytes")
+    if len(shape) > 2 or count * dtype.itemsize != rest:
+        raise InputError(f"{place}: the shape {shape} of {dtype} does not fit {rest} bytes")
+    body = stream.read()
+    if len(body) != rest:
+        raise InputError(f"{place}: {len(body)} bytes are there, {rest} are expected")
     if count == 0:
         return np.empty(shape, dtype=dtype)
     return np.frombuffer(body, dtype=dtype).reshape(shape, order="F" if by_columns else "C")
+
+
+def _header(stream: Any, place: str) -> tuple[tuple[int, ...], bool, np.dtype[Any]]:
+    """Shape, whether columns come first, and type. NumPy's own reader evaluates the header and may warn."""
+    magic = stream.read(8)
+    if magic[:7] not in (b"\x93NUMPY\1", b"\x93NUMPY\2"):
+        raise InputError(f"{place}: expected an array of the NPY format 1 or 2, got {shown(magic)}")
+    length = int.from_bytes(stream.read(2 * magic[6]), "little")
+    if length > _LONGEST_HEADER:
+        raise InputError(f"{place}: a header of {length} bytes; at most {_LONGEST_HEADER} are read")
+    header = stream.read(length)
+    found = _HEADER.fullmatch(header)
+    if found is None:
+        raise InputError(f"{place}: expected numbers or text, got {shown(header.decode('latin-1'))}")
+    kind, by_columns, shape = (part.decode() for part in found.groups())
+    lengths = tuple(int(part) for part in shape.split(",") if part.strip())
+    return lengths, by_columns == "True", np.dtype(kind)

@@ -20,11 +20,12 @@ import numpy as np
 from formulations.motion.files.checked import named, numbered
 from formulations.motion.trajectory import Trajectory
 from formulations.problem.errors import InputError
-from formulations.robot.text.entry import TextEntry
+from formulations.robot.text.entry import LARGEST_NUMBER, TextEntry
 from formulations.robot.text.files import decode, shown
 from formulations.robot.text.trees import parse_json
 
 _LARGEST = 50_000_000  # bytes of a file that is read
+_MOST_NUMBERS = 3_000_000
 _MOST_COEFFICIENTS = 50  # per joint and piece
 _PIECES = re.compile(rb'"pieces"\s*:')
 _HEAD = 100_000  # bytes in which the pieces must begin
@@ -99,7 +100,7 @@ def read_pieces(data: bytes, file: str) -> tuple[Trajectory, tuple[str, ...]]:
     """
     if len(data) > _LARGEST:
         raise InputError(f"{file}: {len(data)} bytes; pieces are read from at most {_LARGEST} bytes")
-    top = parse_json(decode(data, file), file)
+    top = parse_json(decode(data, file), file, most=_MOST_NUMBERS)
     entries = top.entries(("joint_names", "pieces", "passage_times"))
     if "pieces" not in entries:
         raise top.error("pieces is missing")
@@ -119,6 +120,8 @@ def read_pieces(data: bytes, file: str) -> tuple[Trajectory, tuple[str, ...]]:
         seconds = _number(piece["seconds"])
         if seconds <= 0.0:
             raise piece["seconds"].error(f"{seconds:g} is not positive")
+        if seconds > LARGEST_NUMBER:
+            raise piece["seconds"].error(f"{seconds:g} is beyond {LARGEST_NUMBER:g}")
         durations.append(seconds)
         joints = piece["coefficients"].elements()
         rows.append([[_number(number) for number in joint.elements()] for joint in joints])

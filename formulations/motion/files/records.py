@@ -27,7 +27,7 @@ _NUMBER = re.compile(
 _FIRST_OF_JSON = re.compile(rb'"points"\s*:\s*\[\s*(?=\{)')
 _FIRST_OF_YAML = re.compile(rb"""(?:^|[\s{,])points["']?:[ \t]*\r?\n([ \t]*)(?=- )""")
 
-_LARGEST_IRREGULAR = 10_000_000  # bytes of a file whose points are not written alike
+LARGEST_IRREGULAR = 10_000_000  # bytes of a file whose points are not written alike
 
 
 @dataclass(frozen=True)
@@ -64,7 +64,7 @@ class Records:
         return self.values[:, at.astype(np.intp)]
 
 
-def require_small(data: bytes, file: str) -> None:
+def require_small(data: bytes, file: str, found: Records | None = None) -> None:
     """Refuse a large file whose points are not written alike: each value of it would be an object.
 
     Parameters
@@ -73,16 +73,19 @@ def require_small(data: bytes, file: str) -> None:
         The file.
     file : str
         Its name, for messages.
+    found : Records, optional
+        Its first points, if some are written alike.
 
     Raises
     ------
     InputError
         It has more than 10,000,000 bytes.
     """
-    if len(data) > _LARGEST_IRREGULAR:
+    if len(data) > LARGEST_IRREGULAR:
+        alike = "" if found is None else f"; the first {len(found.values)} are alike"
         raise InputError(
             f"{file}: {len(data)} bytes; points that do not all state the same, written alike, are read "
-            f"from at most {_LARGEST_IRREGULAR} bytes"
+            f"from at most {LARGEST_IRREGULAR} bytes{alike}"
         )
 
 
@@ -159,7 +162,7 @@ def _split(data: bytes, start: int, end: int, separator: bytes) -> Records | Non
     record = data[start:end]
     if b"\0" in record:
         return None
-    template = re.sub(rb"[ \t]+\0", b"\0", _NUMBER.sub(b"\0", record))
+    template = re.sub(rb"(?<![ \t])[ \t]+\0", b"\0", _NUMBER.sub(b"\0", record))
     slots = template.count(b"\0")
     if not slots:
         return None

@@ -26,6 +26,7 @@ if TYPE_CHECKING:
 
 POSED = ("arm", "pose", "length", "near")  # the keys that stand in place of waypoints
 _POSE_KEYS = ("position", "rpy")
+_FARTHEST, _MOST_ANGLE = 1e4, 1e6  # m, rad
 
 
 def waypoints_of_poses(data: dict[str, Any], angle: float) -> tuple[Array, Array]:
@@ -58,6 +59,7 @@ def waypoints_of_poses(data: dict[str, Any], angle: float) -> tuple[Array, Array
     near = None
     if "near" in data:
         near = read_matrix("near", [data["near"]])[0] * angle
+        _within("near", near, _MOST_ANGLE)
         if len(near) != arm.dof:
             raise InputError(f"near: {len(near)} values for {arm.dof} joints")
     return joints_of(arm, list(_poses(data, angle)), near), arm.position
@@ -120,4 +122,14 @@ def _pose(where: str, table: dict[str, Any], metre: float, angle: float) -> Arra
         if len(vector) != 3:
             raise InputError(f"{where}: {key}: {len(vector)} values where 3 are expected")
         vectors.append(vector)
-    return pose_of(vectors[0] * metre, vectors[1] * angle)
+    position, rpy = vectors[0] * metre, vectors[1] * angle
+    _within(f"{where}: position", position, _FARTHEST)
+    _within(f"{where}: rpy", rpy, _MOST_ANGLE)
+    return pose_of(position, rpy)
+
+
+def _within(key: str, values: Array, most: float) -> None:
+    """Refuse values [rad or m] with which nothing can be computed."""
+    if (np.abs(values) > most).any():
+        unit = "m" if most == _FARTHEST else "rad"
+        raise InputError(f"{key}: {np.abs(values).max():g} {unit} is beyond {most:g} {unit}")

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-import tomllib
+import os
 from importlib.resources import files
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
@@ -28,6 +28,7 @@ from formulations.problem.toml_file.robot_files import (
     robot_of_keys,
     waypoints_from,
 )
+from formulations.problem.toml_file.toml_text import LARGEST, parse_toml
 from formulations.problem.toml_file.toml_values import (
     known_keys,
     nearest,
@@ -36,6 +37,7 @@ from formulations.problem.toml_file.toml_values import (
     read_text,
     shown,
 )
+from formulations.robot.text.files import decode, read_bytes
 
 if TYPE_CHECKING:
     from formulations.robot import Robot
@@ -52,8 +54,6 @@ _KEYS = (
     *("name", "title", "source", "unit", "family", "waypoints", "limits", *POSED),
     *("joints", "prismatic", "waypoints_file", *ROBOT_KEYS),
 )
-_BOM = "\ufeff"
-_LARGEST_FILE = 10_000_000  # bytes; a problem file is a few kilobytes
 
 
 def load(file_or_case: str | Path) -> Problem:
@@ -102,7 +102,7 @@ def arm_in(file: str | Path) -> Arm | Robot | None:
     InputError
         In one line.
     """
-    data = tomllib.loads(_text_of(file).removeprefix(_BOM))
+    data = parse_toml(_text_of(file), str(file))
     if "arm" in data:
         return load_arm(data["arm"])
     return robot_of_keys(data, Path(file).parent) if "robot" in data else None
@@ -113,18 +113,9 @@ def _text_of(file_or_case: str | Path) -> str:
     if str(file_or_case) in CASES:
         return (files("formulations.problem.cases") / f"{file_or_case}.toml").read_text("utf-8")
     path = Path(file_or_case)
-    try:
-        if path.stat().st_size > _LARGEST_FILE:
-            raise InputError(f"{path}: larger than {_LARGEST_FILE} bytes, not a problem file")
-        return path.read_text("utf-8-sig")
-    except FileNotFoundError:
-        raise InputError(
-            f"{path}: no such file, and no case of that name (cases: {', '.join(CASES)})"
-        ) from None
-    except UnicodeDecodeError:
-        raise InputError(f"{path}: not a UTF-8 text file") from None
-    except (OSError, ValueError) as error:
-        raise InputError(f"{path}: cannot be read: {error}") from None
+    if not os.path.exists(path):  # Path.exists raises for a name that is too long
+        raise InputError(f"{path}: no such file, and no case of that name (cases: {', '.join(CASES)})")
+    return decode(read_bytes(path, largest=LARGEST), str(path))
 
 
 def parse(text: str, *, where: str = "problem", folder: str | Path = ".") -> Problem:
@@ -161,10 +152,7 @@ def parse(text: str, *, where: str = "problem", folder: str | Path = ".") -> Pro
     >>> problem.dof, problem.n_segments
     (2, 2)
     """
-    try:
-        data = tomllib.loads(text.removeprefix(_BOM))
-    except (ValueError, RecursionError) as error:  # ValueError: also whole numbers beyond 4300 digits
-        raise InputError(f"{where}: not valid TOML: {error}") from None
+    data = parse_toml(text, where)
     try:
         return _problem(data, Path(folder))
     except InputError as error:

@@ -20,7 +20,7 @@ Value: TypeAlias = dict[str, "TextNode"] | list["TextNode"] | Scalar
 LARGEST_NUMBER = 1e9  # nothing that a robot does is beyond; guards all that computes with it
 MOST_DEPTH = 32  # levels of a file that is read
 MOST_KEYS = 5000  # keys of one mapping
-MOST_NODES = 3_000_000  # values of a file that is read
+MOST_NODES = 200_000  # values of a file that is read value by value
 
 
 class TextNode(NamedTuple):

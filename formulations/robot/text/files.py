@@ -22,9 +22,11 @@ _MARKS = (  # the longer marks first: that of UTF-32 begins with that of UTF-16
     (b"\xff\xfe", "UTF-16"),
     (b"\xfe\xff", "UTF-16"),
 )
+_GROWTH = 100_000  # bytes
 _SHOWN = 50  # characters of a value in a message
 _COMPARED = 100  # characters of a name that are compared with known names
-_NUMBER = re.compile(r"[-+]?(?:\d+\.?\d*|\.\d+)(?:[eE][-+]?\d+)?", re.ASCII)
+_LONGEST_NUMBER = 10_000  # characters
+_NUMBER = re.compile(r"[-+]?(?:\d+(?:\.\d*)?|\.\d+)(?:[eE][-+]?\d+)?", re.ASCII)  # linear in the length
 
 
 def read_bytes(path: str | Path, *, largest: int) -> bytes:
@@ -57,7 +59,8 @@ def read_bytes(path: str | Path, *, largest: int) -> bytes:
         if mode.st_size > largest:
             raise InputError(f"{path}: {mode.st_size} bytes; at most {largest} are read")
         with open(path, "rb") as stream:
-            data = stream.read(largest + 1)
+            # the memory asked for is what the file takes, and a little more if it grows meanwhile
+            data = stream.read(min(largest, mode.st_size + _GROWTH) + 1)
     except InputError:
         raise
     except FileNotFoundError:
@@ -66,8 +69,8 @@ def read_bytes(path: str | Path, *, largest: int) -> bytes:
         raise InputError(f"{path}: cannot be read: {error.strerror or error}") from None
     except (TypeError, ValueError):  # a null character in the name, say
         raise InputError(f"{shown(path)}: not the name of a file") from None
-    if len(data) > largest:  # a file that grew meanwhile
-        raise InputError(f"{path}: at most {largest} bytes are read")
+    if len(data) > min(largest, mode.st_size + _GROWTH):
+        raise InputError(f"{path}: grew beyond {len(data) - 1} bytes while it was read")
     return data
 
 
@@ -104,7 +107,7 @@ def decode(data: bytes, file: str) -> str:
     if "\0" in text:
         line = text.count("\n", 0, text.index("\0")) + 1
         raise InputError(f"{file}: line {line}: holds a null character, so it is not a text file")
-    if not text.strip():
+    if not text or text.isspace():
         raise InputError(f"{file}: is empty")
     return text
 
@@ -122,6 +125,8 @@ def number_of(text: str) -> float | None:
     float or None
         None where the text is anything else: ``nan``, ``inf`` and ``1_000`` too.
     """
+    if len(text) > _LONGEST_NUMBER:
+        return None
     text = text.strip()
     return float(text) if _NUMBER.fullmatch(text) else None
 

@@ -51,6 +51,9 @@ def parse_yaml(text: str, file: str) -> TextEntry:
             f"{file}: YAML needs the package PyYAML: pip install 'timebound[robot]'"
         ) from None
     loader = getattr(yaml, "CSafeLoader", yaml.SafeLoader)
+    _require_few(
+        file, text.count("\n") // 2 + text.count(",") // 2, MOST_NODES
+    )  # both, if a list is long
     builder = _Builder(file)
     try:
         for event in yaml.parse(text, Loader=loader):
@@ -69,7 +72,7 @@ def parse_yaml(text: str, file: str) -> TextEntry:
     return TextEntry(builder.root, file)
 
 
-def parse_json(text: str, file: str) -> TextEntry:
+def parse_json(text: str, file: str, *, most: int = MOST_NODES) -> TextEntry:
     """Read JSON text.
 
     Parameters
@@ -78,6 +81,8 @@ def parse_json(text: str, file: str) -> TextEntry:
         One value.
     file : str
         Name of the file, for messages.
+    most : int, optional
+        How many values are read.
 
     Returns
     -------
@@ -100,6 +105,7 @@ def parse_json(text: str, file: str) -> TextEntry:
             raise InputError(f"{file}: key {shown(twice)} is given twice")
         return found
 
+    _require_few(file, text.count(","), most)
     try:
         data = json.loads(text, object_pairs_hook=unique, parse_int=float)
     except json.JSONDecodeError as error:
@@ -107,6 +113,12 @@ def parse_json(text: str, file: str) -> TextEntry:
     except RecursionError:
         raise InputError(f"{file}: more than {MOST_DEPTH} levels deep") from None
     return TextEntry(_nodes(data, file, MOST_DEPTH), file)
+
+
+def _require_few(file: str, count: int, most: int) -> None:
+    """Refuse a file with too many values before one of them is read."""
+    if count > most:
+        raise InputError(f"{file}: more than {most} values")
 
 
 def _nodes(data: Any, file: str, levels: int) -> TextNode:
@@ -151,6 +163,8 @@ class _Builder:
             )
         elif name == "DocumentStartEvent":
             self.documents += 1
+            if self.documents > 2:
+                self._fail(event, "a third document begins; one is read")
 
     def _scalar(self, event: Any) -> None:
         self._counted(event)

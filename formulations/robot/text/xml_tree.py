@@ -16,6 +16,7 @@ from formulations.robot.text.files import number_of, shown
 
 Element: TypeAlias = Any  # lxml has no types of its own
 
+_MOST_MARKS = 200_000  # elements, their ends and attributes
 _XACRO = "is a xacro file; expand it first: xacro {file} > robot.urdf"
 
 
@@ -47,6 +48,9 @@ def parse_xml(text: str, file: str, *, root: str) -> Element:
         raise InputError(
             f"{file}: XML needs the package lxml: pip install 'timebound[robot]'"
         ) from None
+    marks = text.count("<") + text.count("=")
+    if marks > _MOST_MARKS:
+        raise InputError(f"{file}: {marks} elements and attributes; at most {_MOST_MARKS} are read")
     for forbidden in ("<!DOCTYPE", "<!ENTITY"):
         if forbidden in text:
             line = text.count("\n", 0, text.index(forbidden)) + 1

@@ -20,6 +20,8 @@ from formulations.robot.text.files import known_names, number_of, shown
 
 MOST_WAYPOINTS = 100_000
 MOST_COLUMNS = 1000
+_MOST_LINES = 2 * MOST_WAYPOINTS  # with comments and empty lines
+_LONGEST_LINE = 100_000  # characters
 
 PREFIX = "position_"
 _DECIMAL_COMMA = re.compile(r"\s*[-+]?\d+,\d+\s*", re.ASCII)
@@ -86,12 +88,18 @@ def _is_name(cell: str) -> bool:
 def _cells(text: str, file: str) -> Iterator[tuple[int, list[str]]]:
     """Line number and cells of each row that is neither empty nor a comment."""
     lines = text.splitlines()
+    if len(lines) > _MOST_LINES:
+        raise InputError(f"{file}: {len(lines)} lines; at most {_MOST_LINES} are read")
     first = next((line for line in lines if line.strip() and not line.lstrip().startswith("#")), "")
-    bare = re.sub('"[^"]*"', "", first)  # a quoted name may hold any of the marks
+    bare = re.sub('"[^"]*"', "", first[:_LONGEST_LINE])  # a quoted name may hold any of the marks
     separator = next((mark for mark in (";", "\t", ",") if mark in bare), None)
     for number, line in enumerate(lines, start=1):
         if not line.strip() or line.lstrip().startswith("#"):
             continue
+        if len(line) > _LONGEST_LINE:
+            raise InputError(
+                f"{file}: line {number}: {len(line)} characters; at most {_LONGEST_LINE} are read"
+            )
         if separator is None:
             cells = line.split()
         else:

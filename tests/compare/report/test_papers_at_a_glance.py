@@ -14,7 +14,7 @@ from compare.benchmark.run import audits
 from compare.engines import ThisProcess
 from compare.report.page import environment, papers_context
 from compare.report.papers_at_a_glance import papers_at_a_glance
-from formulations import CASES, load
+from formulations import CASES, InputError, load
 
 
 def ladder_of(case: str, family: float, free_form: float) -> dict[str, object]:
@@ -87,11 +87,12 @@ def test_audits_are_stored_kept_and_made_again(tmp_path: Path) -> None:
     assert {"digest", "versions", "machine"} <= set(data)
 
     made_of = {key: value for key, value in data.items() if key != "audits"}
-    store.write_audit("z1", made_of, [{"kept": True}])
+    kept = [data["audits"][0] | {"title": "kept"}]
+    store.write_audit("z1", made_of, kept)
     audits(pool, ["z1"], store)
-    assert store.audits()["z1"]["audits"] == [{"kept": True}]
+    assert store.audits()["z1"]["audits"][0]["title"] == "kept"
     # of another text of the paper, it is made again
-    store.write_audit("z1", made_of | {"digest": "another"}, [{"kept": True}])
+    store.write_audit("z1", made_of | {"digest": "another"}, kept)
     audits(pool, ["z1"], store)
     assert store.audits()["z1"]["audits"][0]["paper"] == "z1"
     # a paper that has a page of its own is linked to it
@@ -102,5 +103,8 @@ def test_audits_are_stored_kept_and_made_again(tmp_path: Path) -> None:
     page = environment(tmp_path).get_template("papers.html.j2").render(context)
     assert 'href="papers/z1.html"' in page
     assert "Lu 2024: Unitree Z1" in page
+    store.write_audit("z1", made_of, [{"paper": "z1"}])
+    with pytest.raises(InputError, match=r"results\.sqlite: audit z1: audits\[0\]\.title: missing"):
+        store.audits()
     store.clear()
     assert store.audits() == {}

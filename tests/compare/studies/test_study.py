@@ -155,5 +155,5 @@ def test_an_interrupted_study_keeps_the_finished_calls(tmp_path: Path) -> None:
 def test_a_file_of_something_else_is_refused_in_one_line(tmp_path: Path) -> None:
     (tmp_path / "studies").mkdir()
     (tmp_path / "studies" / "planted.jsonl").write_text("{}\n")
-    with pytest.raises(InputError, match=r"planted\.jsonl: holds no rows of planted"):
+    with pytest.raises(InputError, match=r"planted\.jsonl: line 1: holds no rows of planted"):
         run(STUDY, CALLS, folder=tmp_path, resume=True)

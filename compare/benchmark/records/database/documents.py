@@ -28,8 +28,8 @@ def write_document(connection: sqlite3.Connection, kind: str, name: str, data: A
     )
 
 
-def documents(connection: sqlite3.Connection, kind: str) -> dict[str, Any]:
-    """Return all plain data of one kind.
+def documents(connection: sqlite3.Connection, kind: str) -> dict[str, str]:
+    """Return all documents of one kind.
 
     Parameters
     ----------
@@ -38,11 +38,11 @@ def documents(connection: sqlite3.Connection, kind: str) -> dict[str, Any]:
 
     Returns
     -------
-    dict of str to Any
-        By name, in alphabetical order.
+    dict of str to str
+        JSON by name, in alphabetical order.
     """
     lines = connection.execute("SELECT name, data FROM documents WHERE kind = ? ORDER BY name", (kind,))
-    return {name: json.loads(data) for name, data in lines}
+    return dict(lines)
 
 
 def problems_of_plan(connection: sqlite3.Connection, plan: int | None) -> dict[str, Problem]:
