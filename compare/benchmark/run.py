@@ -246,7 +246,8 @@ def _mismatch(row: Row, plan: dict[RunKey, Run], problems: dict[str, Problem]) -
         fits = (row.budget, row.population) in sizes
         return "a seed that is not asked for" if fits else "another budget"
     problem = problems[run.case]
-    return provenance_of(run.swarm, problem, run.population, run.time_limit).difference(row)
+    made_by = provenance_of(run.swarm, problem, run.population, run.time_limit, run.constants)
+    return made_by.difference(row)
 
 
 def audits(pool: Executor, papers: list[str], store: Store) -> None:
