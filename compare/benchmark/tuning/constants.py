@@ -92,8 +92,10 @@ def constants_text(made: Mapping[str, str | int], constants: Mapping[str, Consta
     """
     lines = ["# Written by `timebound tune`; see compare/benchmark/tuning.", "", "[made]"]
     # JSON's words for text and numbers are TOML's too
-    lines += [f"{key} = {json.dumps(value)}" for key, value in made.items()]
+    lines += [f"{key} = {json.dumps(value, ensure_ascii=False)}" for key, value in made.items()]
     for swarm, found in constants.items():
-        lines += ["", f"[constants.{json.dumps(swarm)}]"]
-        lines += [f"{json.dumps(name)} = {value!r}" for name, value in found.items()]
+        lines += ["", f"[constants.{json.dumps(swarm, ensure_ascii=False)}]"]
+        lines += [
+            f"{json.dumps(name, ensure_ascii=False)} = {value!r}" for name, value in found.items()
+        ]
     return "\n".join(lines) + "\n"
