@@ -285,7 +285,8 @@ Codings = Annotated[
 Tracks = Annotated[
     tuple[Any, ...] | None,
     _words_of("Track", "--tracks", "Rules: equal (the joints of the published coding share the budget),"
-              " paper (the papers' own: each of them has all of it)."),
+              " paper (the papers' own: each of them has all of it), tuned (constants tuned on open"
+              " instances)."),
 ]  # fmt: skip
 SeenIn = Annotated[
     tuple[Any, ...],
@@ -304,10 +305,7 @@ ProblemFile = Annotated[
     str, Parameter(name="FILE", help="A problem file (TOML), or the name of a shipped case.")
 ]
 Out = Annotated[str, Parameter(name="--out", metavar="DIR", help="Folder of the report.")]
-Jobs = Annotated[
-    int,
-    Parameter(name="--jobs", validator=positive, help="Worker processes."),
-]
+Jobs = Annotated[int, Parameter(name="--jobs", validator=positive, help="Worker processes.")]
 OnCluster = Annotated[
     str | None,
     Parameter(name="--cluster", metavar="ADDRESS",
@@ -325,9 +323,7 @@ Starts = Annotated[
 Budget = Annotated[
     int, Parameter(name="--budget", validator=positive, help="Evaluations of the objective per run.")
 ]
-Resume = Annotated[
-    bool, Parameter(name="--resume", help="Keep what an interrupted run of the same kind has finished.")
-]
+Resume = Annotated[bool, Parameter(name="--resume", help="Keep what an interrupted run has finished.")]
 Json = Annotated[
     str | None,
     Parameter(

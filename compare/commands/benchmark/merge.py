@@ -38,6 +38,7 @@ def merge_folders(
     """
     target = Path(folders[0]) if out is None else output_folder(out)
     store = merge([Path(name) for name in folders], target, allow=("machine",) if machines else ())
-    tabulate_known_times(ThisProcess(), store.problems(), store)
+    if store.settings().size != "suite":  # its instances are no paper's
+        tabulate_known_times(ThisProcess(), store.problems(), store)
     print(f"merged: {store.file} ({sum(1 for _ in store.iterate_rows())} rows)")
     return DONE

@@ -99,6 +99,8 @@ BAD = {
     "check_certificate": (["nowhere.json"], "nowhere.json: cannot be read"),
     "all": (["--cases", "sr4d"], "--cases: 'sr4d' is not known; did you mean 'sr4c'?"),
     "report": (["/nowhere"], "/nowhere: holds no comparison"),
+    "merge": (["/nowhere", "/elsewhere"], "/nowhere: holds no comparison"),
+    "export": (["/nowhere", "--csv"], "/nowhere: holds no comparison"),
     "audit": (["nowhere.toml"], "nowhere.toml"),
     "papers": (["sr4x"], "KEY: 'sr4x' is not known; did you mean 'sr4c'?"),
     "table8": (["--runs", "0"], "--runs: 0 is not positive"),
