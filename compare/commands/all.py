@@ -116,7 +116,7 @@ def compare_all(
     graded_on = suite(instances or SIZE) if on_suite else chosen(named)
     wanted = list(swarms or swarms_of(size))
     if rivals:
-        from compare.commands.options import found_swarms
+        from compare.commands.names import found_swarms
 
         wanted = list(found_swarms(",".join([*wanted, *RIVALS])))
     problems = {one.name: one.problem for one in graded_on}

@@ -10,7 +10,8 @@ from cyclopts import Parameter
 
 from compare.audit.paper import CASE_OF
 from compare.commands import DONE, FAILED
-from compare.commands.options import CORES, Jobs, Json, Out, Resume, several
+from compare.commands.names import several
+from compare.commands.options import CORES, Jobs, Json, Out, Resume
 from compare.files import output_folder
 from compare.papers import ITEMS
 from compare.papers.making import choose, draw, left_to_make, make

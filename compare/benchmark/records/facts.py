@@ -20,7 +20,7 @@ from compare.plain_data import parse_json, typed_or_line
 from formulations import InputError
 
 
-class Finding(TypedDict):
+class FindingRecord(TypedDict):
     """A finding of an audit, as `compare.audit` writes it."""
 
     kind: str
@@ -40,7 +40,7 @@ class AuditedPaper(TypedDict):
     notes: str
     unit: str
     motions: list[dict[str, Any]]  # JudgedTimes as plain data
-    findings: list[Finding]
+    findings: list[FindingRecord]
 
 
 class AuditRecord(TypedDict):
