@@ -151,7 +151,7 @@ def signed_rank(differences: ArrayLike) -> float:
     tied = len(np.unique(size)) < len(size) or not size.all()
     if not tied and len(size) <= 50:
         method: object = "exact"
-    elif len(size) <= 13:  # all signs are tried: 8192 at most
+    elif len(size) <= 10:  # all signs are tried: 1024 at most
         method = stats.PermutationMethod(n_resamples=2 ** len(size))
     else:
         method = "asymptotic"

@@ -26,7 +26,7 @@ from compare.statistics.needed import needed
 
 Array = NDArray[np.float64]
 
-_ENUMERATED = 20_000  # most arrangements that are counted one by one, where there are ties
+_ENUMERATED = 4_000  # most arrangements that are counted one by one, where there are ties
 _EXACT = 50  # most runs of a set for the exact distribution without ties
 
 
@@ -98,7 +98,7 @@ def compared(first: ArrayLike, second: ArrayLike, level: float = 0.95) -> Pair:
     """Compare two sets of runs on one instance.
 
     The test is exact where the sets are small: without ties by the distribution of the statistic, with
-    ties by counting all arrangements of the runs. Beyond, it is the normal approximation with the
+    ties by counting all arrangements of the runs (of two runs each at least). Beyond, it is the normal approximation with the
     corrections for ties and continuity.
 
     Parameters
@@ -123,7 +123,7 @@ def compared(first: ArrayLike, second: ArrayLike, level: float = 0.95) -> Pair:
     given = (ranks[: len(x)], ranks[len(x) :])
     if not tied and max(len(x), len(y)) <= _EXACT:
         p, method = stats.mannwhitneyu(*given, method="exact").pvalue, "exact"
-    elif tied and (arrangements := comb(len(both), len(x))) <= _ENUMERATED:
+    elif min(len(x), len(y)) > 1 and (arrangements := comb(len(both), len(x))) <= _ENUMERATED:
         every = stats.PermutationMethod(n_resamples=arrangements)
         p, method = stats.mannwhitneyu(*given, method=every).pvalue, "exact"
     else:
