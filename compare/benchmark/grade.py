@@ -7,7 +7,9 @@ from dataclasses import dataclass
 
 import numpy as np
 
+from compare.benchmark.coordinates import as_printed, seen_in
 from compare.benchmark.objective import CODINGS, Objective, search_box
+from compare.benchmark.protocol import Coordinates, Track, shares
 from compare.benchmark.records.provenance import machine, parameters_of, provenance_of
 from compare.benchmark.records.rows import (
     BoundProof,
@@ -18,6 +20,7 @@ from compare.benchmark.records.rows import (
     relative_gap,
 )
 from formulations import FAMILIES, Problem, check, longest_segment
+from formulations.problem.arrays import Array
 from metaheuristics import Result, algorithm, minimise
 
 REACHED = 1e-3  # gap below which a swarm in the stretched coding has found its optimum
@@ -30,10 +33,14 @@ class Run:
     Attributes
     ----------
     budget : int
-        Evaluations; of each joint in the published coding.
+        Evaluations over the whole motion. In the published coding the joints that move share them.
     time_limit : float or None [s]
         Limit on the swarm's own work per search. A swarm with a limit runs in a process of its own.
         A plug-in always does, for at most `metaheuristics.entry.TIME_LIMIT` if none is given.
+    track : Track
+        Which rules it follows; the plan has counted the budget by them.
+    coordinates : Coordinates
+        In which the swarm sees the durations.
     """
 
     case: str
@@ -43,11 +50,22 @@ class Run:
     budget: int
     population: int
     time_limit: float | None = None
+    track: Track = Track.equal
+    coordinates: Coordinates = Coordinates.printed
 
     @property
     def key(self) -> RunKey:
         """What tells one run from another."""
-        return RunKey(self.case, self.coding, self.swarm, self.seed, self.budget, self.population)
+        return RunKey(
+            self.case,
+            self.coding,
+            self.swarm,
+            self.seed,
+            self.budget,
+            self.population,
+            self.track,
+            self.coordinates,
+        )
 
 
 @dataclass(frozen=True)
@@ -111,20 +129,24 @@ def grade(
     results = [
         minimise(
             search,
-            objective,
-            lo,
-            hi,
-            budget=run.budget,
+            *seen_in(run.coordinates, objective, lo, hi),
+            budget=budget,
             seed=_seed(run, joint),
             **parameters_of(swarm, run.population),
         )
-        for joint, objective in zip(joints, objectives, strict=True)
+        for joint, objective, budget in zip(
+            joints, objectives, shares(run.budget, len(joints)), strict=True
+        )
     ]
     traces = [
         Trace(joint, result.trace_evaluations.tolist(), result.trace_best.tolist())
         for joint, result in zip(joints, results, strict=True)
     ]
-    motion = _judged(run.coding, problem, objectives, results)
+    found = [
+        None if result.x is None else as_printed(run.coordinates, result.x, lo, hi)
+        for result in results
+    ]
+    motion = _judged(run.coding, problem, objectives, results, found)
     gap = relative_gap(motion.seconds, bound)
     note = motion.note
     missed = motion.status is RowStatus.ok and run.coding == "stretched" and (gap or 0.0) > REACHED
@@ -150,6 +172,8 @@ def grade(
         claimed_gap=relative_gap(motion.claimed, bound),
         budget=run.budget,
         population=run.population,
+        track=run.track,
+        coordinates=run.coordinates,
         evaluations=sum(result.evaluations for result in results),
         durations=motion.durations,
         worst=motion.worst,
@@ -180,13 +204,16 @@ class _Motion:
 
 
 def _judged(
-    coding: str, problem: Problem, objectives: list[Objective], results: list[Result]
+    coding: str,
+    problem: Problem,
+    objectives: list[Objective],
+    results: list[Result],
+    vectors: list[Array | None],
 ) -> _Motion:
     """Judge the motion that the searches found: as claimed, and once it keeps the limits."""
     faults = [r for r in results if r.status != "ok"]
     status = RowStatus(faults[0].status.value) if faults else RowStatus.ok
     note = faults[0].note if faults else ""
-    vectors = [result.x for result in results]
     found = [
         objective.durations(x)
         for objective, x in zip(objectives, vectors, strict=True)

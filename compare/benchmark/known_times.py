@@ -7,12 +7,13 @@ the spline family and of all motions, each with its certified bound.
 
 from __future__ import annotations
 
-from collections.abc import Iterable
+from collections.abc import Collection, Iterable
 from dataclasses import dataclass
 
 from compare.audit.motion.printed_motion import PrintedMotion
 from compare.audit.paper import PAPERS, Paper, PrintedTimes, load_papers
 from compare.benchmark.ladders import LadderRecord
+from compare.benchmark.records.pooled import pooled
 from compare.benchmark.records.rows import Row
 from compare.benchmark.statistics import median, times_of
 from formulations import Problem
@@ -67,7 +68,7 @@ class KnownTime:
 
 
 def table_of_known_times(
-    problem: Problem, ladder: LadderRecord, rows: Iterable[Row]
+    problem: Problem, ladder: LadderRecord, rows: Iterable[Row], *, allow: Collection[str] = ()
 ) -> list[KnownTime]:
     """Return the table of one case.
 
@@ -79,6 +80,8 @@ def table_of_known_times(
         Its stored bounds.
     rows : iterable of Row
         Rows of any cases; those of this one count.
+    allow : collection of str
+        Columns in which the rows of one cell may differ, as `records.pooled.pooled` takes them.
 
     Returns
     -------
@@ -89,7 +92,7 @@ def table_of_known_times(
     paper = paper_of_case(problem.name)
     if paper is not None:
         lines += _published(paper, problem)
-    lines.append(_swarm(problem.name, rows))
+    lines.append(_swarm(problem.name, rows, allow))
     for key, what in SHOWN_RUNGS.items():
         rung = ladder["ladder"].get(key)
         if rung is None:
@@ -171,11 +174,11 @@ def _whole(paper: Paper, row: PrintedTimes, problem: Problem) -> list[KnownTime]
     return [published, KnownTime(what, seconds, True, assumed, "feasible", row.by)]
 
 
-def _swarm(case: str, rows: Iterable[Row]) -> KnownTime:
+def _swarm(case: str, rows: Iterable[Row], allow: Collection[str]) -> KnownTime:
     """The paper's swarm on all durations at once, every candidate stretched to feasibility."""
     swarm = SWARMS.get(case, "")
     wanted = (case, "stretched", swarm)
-    mine = [row for row in rows if (row.case, row.coding, row.swarm) == wanted]
+    mine = pooled((r for r in rows if (r.case, r.variant, r.swarm) == wanted), allow=allow)
     what = f"its swarm ({swarm or 'none'}) with the exact stretch"
     seconds = median(times_of(mine))
     if seconds is None:

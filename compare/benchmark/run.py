@@ -20,9 +20,11 @@ from compare.audit.paper import published_text
 from compare.benchmark.grade import Graded, Run, grade
 from compare.benchmark.known_times import KnownTime, table_of_known_times
 from compare.benchmark.ladders import LadderRecord, ladder_record
-from compare.benchmark.records.provenance import machine, provenance_of, versions_text
+from compare.benchmark.records.mismatch import mismatch
+from compare.benchmark.records.proof_cache import proof_key
+from compare.benchmark.records.provenance import machine, versions_text
 from compare.benchmark.records.rejudge import judged_again
-from compare.benchmark.records.rows import BoundProof, Row, RunKey
+from compare.benchmark.records.rows import BoundProof, Row
 from compare.benchmark.records.store import Store
 from compare.benchmark.statistics import bound_of
 from compare.screen import bar
@@ -112,6 +114,8 @@ def each(
 def climb(pool: Executor, problems: dict[str, Problem], store: Store, *, certify: bool = True) -> None:
     """Find every bound of every case and write it to the store; the longest task first.
 
+    What this code has proved before, in this store or one that was merged into it, is not proved again.
+
     Parameters
     ----------
     pool : Executor
@@ -121,10 +125,16 @@ def climb(pool: Executor, problems: dict[str, Problem], store: Store, *, certify
     certify : bool
         Whether the bound of the spline family is proved.
     """
-    longest_first = sorted(problems.items(), key=lambda item: -item[1].n_segments)
-    calls = [(case, problem, certify) for case, problem in longest_first]
+    keys = {case: proof_key(problem, certify=certify) for case, problem in problems.items()}
+    calls = []
+    for case, problem in sorted(problems.items(), key=lambda item: -item[1].n_segments):
+        known = store.proved(keys[case])
+        if known is None:
+            calls.append((case, problem, certify))
+        else:
+            store.write_ladder(case, known)
     for case, found in each(pool, "bounds", _ladder, calls):
-        store.write_ladder(case, found)
+        store.write_ladder(case, found, keys[case])
 
 
 def _ladder(case: str, problem: Problem, certify: bool) -> tuple[str, LadderRecord]:
@@ -132,11 +142,12 @@ def _ladder(case: str, problem: Problem, certify: bool) -> tuple[str, LadderReco
 
 
 def swarm(pool: Executor, runs: list[Run], problems: dict[str, Problem], store: Store) -> None:
-    """Grade every run that the store does not have yet; the rows end in the order of the runs.
+    """Grade every run that the store does not have yet, and write ``rows.csv`` in the order of the runs.
 
     Stored rows count only if they belong to one of these runs and were made by the same code,
-    parameters, versions and problem. The others are set aside, and a line on stderr says how many and
-    why. The gaps of the rows that stay are measured against the bounds that the store has now.
+    parameters, versions and problem. The others stay in the store and are not read; a line on stderr
+    says how many and why. The gaps of the rows that stay are measured against the bounds that the store
+    has now.
 
     Parameters
     ----------
@@ -150,62 +161,42 @@ def swarm(pool: Executor, runs: list[Run], problems: dict[str, Problem], store: 
     """
     ladders = store.ladders()
     bounds = {case: bound_of(ladders[case]) for case in problems}
-    finished = _kept(runs, problems, bounds, store)
-    left = [run for run in runs if run.key not in finished]
+    store.write_plan(runs, problems)
+    _tell_what_is_left_out(runs, problems, store)
+    store.measure(bounds)
+    left = [runs[place] for place in store.left()]
     batches = [left[i : i + _BATCH] for i in range(0, len(left), _BATCH)]
     calls = [([(run, problems[run.case], *bounds[run.case]) for run in batch],) for batch in batches]
-    for graded in each(pool, f"swarms (x{_BATCH} runs)", _grades, calls):
-        for one in graded:
-            store.add(one)
-    store.sort(runs)
+    try:
+        for graded in each(pool, f"swarms (x{_BATCH} runs)", _grades, calls):
+            for one in graded:
+                store.add(one)
+    except KeyboardInterrupt:
+        store.write_csv()
+        raise
+    store.write_csv()
 
 
 def _grades(batch: list[tuple[Run, Problem, float | None, BoundProof]]) -> list[Graded]:
     return [grade(*one) for one in batch]
 
 
-def _kept(
-    runs: list[Run],
-    problems: dict[str, Problem],
-    bounds: dict[str, tuple[float | None, BoundProof]],
-    store: Store,
-) -> set[RunKey]:
-    """Set aside what the plan cannot use of the stored rows; the keys of the others."""
-    rows = store.rows()
-    if not rows:
-        return set()
-    plan = {run.key: run for run in runs}
-    kept: dict[RunKey, Row] = {}
+def _tell_what_is_left_out(runs: list[Run], problems: dict[str, Problem], store: Store) -> None:
+    """Say on stderr how many stored rows the plan cannot use, and why."""
+    outside = store.outside()
+    if not outside:
+        return
     reasons: Counter[str] = Counter()
-    for row in rows:
-        reason = "a second row of its run" if row.key in kept else _mismatch(row, plan, problems)
-        if reason is None:
-            kept[row.key] = row.measured_against(*bounds[row.case])
-        else:
-            reasons[reason] += 1
-    store.keep(list(kept.values()))
-    if reasons:
-        told = ", ".join(f"{count} with {reason}" for reason, count in reasons.most_common())
-        print(
-            f"resume: {len(kept)} of {len(rows)} stored rows fit the plan; {reasons.total()} do not"
-            f" and are set aside in {store.set_aside_file.name} ({told})",
-            file=sys.stderr,
-            flush=True,
-        )
-    return set(kept)
-
-
-def _mismatch(row: Row, plan: dict[RunKey, Run], problems: dict[str, Problem]) -> str | None:
-    """Why a stored row is none of the plan; None if it is one of it."""
-    run = plan.get(row.key)
-    if run is None:
-        same = [key for key in plan if key[:3] == row.key[:3]]
-        if not same:
-            return "a case, coding or swarm that is not asked for"
-        sizes = {(key.budget, key.population) for key in same}
-        return "a seed that is not asked for" if row.key[4:] in sizes else "another budget"
-    problem = problems[run.case]
-    return provenance_of(run.swarm, problem, run.population, run.time_limit).difference(row)
+    for maker, count in outside:
+        reasons[mismatch(maker, runs, problems)] += count
+    kept = len(runs) - len(store.left())
+    told = ", ".join(f"{count} with {reason}" for reason, count in reasons.most_common())
+    print(
+        f"resume: {kept} of {kept + reasons.total()} stored rows fit the plan; {reasons.total()} do not"
+        f" and are left out ({told})",
+        file=sys.stderr,
+        flush=True,
+    )
 
 
 def audits(pool: Executor, papers: list[str], store: Store) -> None:
@@ -258,8 +249,9 @@ def tabulate_known_times(pool: Executor, problems: dict[str, Problem], store: St
     """
     ladders = store.ladders()
     rows = judged_again(store.rows(), problems, ladders)
+    allow = store.settings().allow
     calls = [
-        (case, problem, ladders[case], [row for row in rows if row.case == case])
+        (case, problem, ladders[case], [row for row in rows if row.case == case], allow)
         for case, problem in problems.items()
     ]
     for case, lines in each(pool, "known times", _known_times, calls):
@@ -267,9 +259,9 @@ def tabulate_known_times(pool: Executor, problems: dict[str, Problem], store: St
 
 
 def _known_times(
-    case: str, problem: Problem, ladder: LadderRecord, rows: list[Row]
+    case: str, problem: Problem, ladder: LadderRecord, rows: list[Row], allow: tuple[str, ...]
 ) -> tuple[str, list[KnownTime]]:
-    return case, table_of_known_times(problem, ladder, rows)
+    return case, table_of_known_times(problem, ladder, rows, allow=allow)
 
 
 def warm_up(problems: dict[str, Problem]) -> None:

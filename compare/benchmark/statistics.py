@@ -1,14 +1,16 @@
-"""What rows say per case, coding and swarm. Statistics are over seeds, and every seed is counted."""
+"""What rows say per case, variant and swarm. Statistics are over seeds, and every seed is counted."""
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Sequence
+from collections.abc import Collection, Iterable, Sequence
 from dataclasses import dataclass
 
 import numpy as np
 
 from compare.benchmark.grade import Trace
 from compare.benchmark.ladders import LadderRecord
+from compare.benchmark.protocol import Track
+from compare.benchmark.records.pooled import pooled
 from compare.benchmark.records.rows import BoundProof, Row
 from formulations.problem.arrays import Array
 
@@ -18,7 +20,7 @@ _TIGHT = 1.0 + 1e-3
 
 @dataclass(frozen=True)
 class Summary:
-    """All seeds of one swarm in one coding on one case.
+    """All seeds of one swarm in one variant of a coding on one case.
 
     Attributes
     ----------
@@ -35,7 +37,7 @@ class Summary:
     """
 
     case: str
-    coding: str
+    variant: str
     swarm: str
     seeds: int
     unsolved: int
@@ -47,21 +49,26 @@ class Summary:
     stretch: float | None
 
 
-def summaries(rows: Iterable[Row]) -> dict[tuple[str, str, str], Summary]:
-    """Summarise rows by case, coding and swarm.
+def summaries(
+    rows: Iterable[Row], *, allow: Collection[str] = ()
+) -> dict[tuple[str, str, str], Summary]:
+    """Summarise rows by case, variant and swarm.
 
     Parameters
     ----------
     rows : iterable of Row
+        They pass the gate `compare.benchmark.records.pooled.pooled`.
+    allow : collection of str
+        Columns in which the rows of one cell may differ, as the gate takes them.
 
     Returns
     -------
-    dict of (case, coding, swarm) to Summary
+    dict of (case, variant, swarm) to Summary
         In the order in which the rows name them first.
     """
     groups: dict[tuple[str, str, str], list[Row]] = {}
-    for row in rows:
-        groups.setdefault((row.case, row.coding, row.swarm), []).append(row)
+    for row in pooled(rows, allow=allow):
+        groups.setdefault((row.case, row.variant, row.swarm), []).append(row)
     return {key: _summary(key, group) for key, group in groups.items()}
 
 
@@ -148,7 +155,7 @@ def convergence(
     ----------
     runs : sequence of traces
         The traces of each run. With several joints the gap of a run is the mean over its joints, each
-        against its own optimum.
+        against its own optimum, after equal shares of the evaluations.
     optima : dict of int to float [s]
         Reference time by joint; -1: all joints at once.
     budget : int
@@ -159,14 +166,15 @@ def convergence(
     Returns
     -------
     grid : Array, shape (m,)
-        Numbers of evaluations.
+        Numbers of evaluations over the whole motion.
     quartiles : Array, shape (3, m)
         25, 50 and 75 %; infinite while too few runs have found a feasible point.
     """
     grid = np.unique(np.geomspace(1, budget, points).round())
     gaps = []
     for traces in runs:
-        each = [best_after(trace, grid) / optima[trace.joint] - 1.0 for trace in traces]
+        share = np.ceil(grid / len(traces))  # of each joint; they search side by side
+        each = [best_after(trace, share) / optima[trace.joint] - 1.0 for trace in traces]
         gaps.append(np.mean(each, axis=0))
     quartiles = np.quantile(np.array(gaps), [0.25, 0.5, 0.75], axis=0, method="nearest")
     return grid, quartiles
@@ -213,14 +221,14 @@ def bound_of(ladder: LadderRecord) -> tuple[float | None, BoundProof]:
     return None, BoundProof.none
 
 
-def best_row(rows: Iterable[Row], *, coding: str | None = None) -> Row | None:
+def best_row(rows: Iterable[Row], *, variant: str | None = None) -> Row | None:
     """Return the row with the shortest verified motion.
 
     Parameters
     ----------
     rows : iterable of Row
-    coding : str, optional
-        Among the rows of this coding.
+    variant : str, optional
+        Among the rows of this variant of a coding.
 
     Returns
     -------
@@ -229,7 +237,7 @@ def best_row(rows: Iterable[Row], *, coding: str | None = None) -> Row | None:
     """
     found: Row | None = None
     for row in rows:
-        if row.seconds is None or coding not in (None, row.coding):
+        if row.seconds is None or variant not in (None, row.variant):
             continue
         if found is None or found.seconds is None or row.seconds < found.seconds:
             found = row
@@ -237,7 +245,7 @@ def best_row(rows: Iterable[Row], *, coding: str | None = None) -> Row | None:
 
 
 def best_claim(rows: Iterable[Row]) -> Row | None:
-    """Return the row with the shortest time claimed in the papers' coding: what a paper would print.
+    """Return the row with the shortest time claimed by the papers' rule: what a paper would print.
 
     Parameters
     ----------
@@ -250,7 +258,23 @@ def best_claim(rows: Iterable[Row]) -> Row | None:
     """
     claims = [
         (row.claimed, index, row)
-        for index, row in enumerate(rows)
-        if row.coding == "published" and row.seconds is not None and row.claimed is not None
+        for index, row in enumerate(as_papers_run(rows))
+        if row.seconds is not None and row.claimed is not None
     ]
     return min(claims, key=lambda claim: claim[:2])[2] if claims else None
+
+
+def as_papers_run(rows: Iterable[Row]) -> list[Row]:
+    """Return the rows that follow the papers' own protocol.
+
+    Parameters
+    ----------
+    rows : iterable of Row
+
+    Returns
+    -------
+    list of Row
+        Those of the published coding in the track ``paper``; where there are none, those of that coding.
+    """
+    published = [row for row in rows if row.coding == "published"]
+    return [row for row in published if row.track is Track.paper] or published

@@ -7,13 +7,14 @@ from typing import Annotated
 
 from cyclopts import Parameter
 
-from compare.benchmark import suite
 from compare.benchmark.known_times import key_of_paper
 from compare.benchmark.objective import CODINGS
+from compare.benchmark.plan import quick_cases, runs
+from compare.benchmark.protocol import RIVALS, Coordinates, Track, swarms_of
 from compare.benchmark.records.store import Settings, Store
 from compare.benchmark.run import audits, climb, swarm, tabulate_known_times, warm_up, workers
 from compare.commands import DONE
-from compare.commands.options import CORES, Cases, Codings, Jobs, Out, Swarms, positive
+from compare.commands.options import CORES, Cases, Codings, Jobs, Out, SeenIn, Swarms, Tracks, positive
 from compare.files import output_folder
 from compare.report.page import render
 from compare.studies import proofs, study
@@ -38,11 +39,14 @@ def compare_all(
     jobs: Jobs = CORES,
     cases: Cases = None,
     swarms: Swarms = None,
-    rivals: Annotated[bool, Parameter(help=f"Run these too: {', '.join(suite.RIVALS)}.")] = False,
+    rivals: Annotated[bool, Parameter(help=f"Run these too: {', '.join(RIVALS)}.")] = False,
     apart: Annotated[float | None, Parameter(metavar="SECONDS", validator=positive)] = None,
     codings: Codings = None,
     seeds: Annotated[int | None, Parameter(validator=positive)] = None,
     budget: Annotated[int | None, Parameter(validator=positive)] = None,
+    budget_factor: Annotated[int, Parameter(validator=positive)] = 1,
+    tracks: Tracks = (Track.equal, Track.paper),
+    coordinates: SeenIn = (Coordinates.printed,),
     resume: bool = False,
 ) -> int:
     """Grade every swarm on every case, audit the papers, and write the report.
@@ -55,13 +59,15 @@ def compare_all(
     quick
         2 seeds, 420 evaluations, few swarms; no proofs, no audits, no B-spline.
     full
-        30 seeds, the papers' own budgets, more control algorithms.
+        31 seeds, the papers' own budgets, more control algorithms.
     apart
         Run every search in a process of its own, for at most so many seconds of the swarm's work.
     seeds
         Number of seeds; 5 if left out.
     budget
-        Evaluations per search, for all cases; 2550 if left out.
+        Evaluations of a run over the whole motion, for all cases; 2550 if left out.
+    budget_factor
+        Multiply every budget by 10, say, or 100.
     resume
         Keep the rows that an interrupted run has finished.
     """
@@ -69,33 +75,34 @@ def compare_all(
     if quick and full:
         raise InputError("--quick, --full: only one of them can be given")
     size = "quick" if quick else "full" if full else "default"
-    chosen = list(cases or (suite.quick_cases() if quick else CASES))
-    wanted = list(swarms or suite.swarms_of(size))
+    chosen = list(cases or (quick_cases() if quick else CASES))
+    wanted = list(swarms or swarms_of(size))
     if rivals:
         from compare.commands.options import found_swarms
 
-        wanted = list(found_swarms(",".join([*wanted, *suite.RIVALS])))
-    runs = suite.runs(
+        wanted = list(found_swarms(",".join([*wanted, *RIVALS])))
+    problems = {case: load(case) for case in chosen}
+    planned = runs(
+        problems,
         size=size,
-        cases=chosen,
         swarms=wanted,
         codings=list(codings or CODINGS),
+        tracks=tracks,
+        coordinates=coordinates,
         seeds=seeds,
         evaluations=budget,
+        factor=budget_factor,
         seconds=apart,
     )
-    problems = {case: load(case) for case in chosen}
     store = Store(output_folder(out))
-    if resume:
-        store.mend()
-    else:
+    if not resume:
         store.clear()
-    budgets = sorted({run.budget for run in runs})
+    budgets = sorted({run.budget for run in planned})
     settings = Settings(
         size=size,
         cases=tuple(chosen),
-        seeds=max(run.seed for run in runs) + 1,
-        budget=" or ".join(str(budget) for budget in budgets) + " evaluations",
+        seeds=tuple(sorted({run.seed for run in planned})),
+        budget=_words(budgets),
     )
     store.write_settings(settings)
 
@@ -104,7 +111,7 @@ def compare_all(
         climb(pool, problems, store, certify=not quick)
         if not quick:
             audits(pool, sorted({paper for case in chosen if (paper := key_of_paper(case))}), store)
-        swarm(pool, runs, problems, store)
+        swarm(pool, planned, problems, store)
         tabulate_known_times(pool, problems, store)
         if size in PROOFS and cases is None:
             calls = proofs.calls(*PROOFS[size])
@@ -114,5 +121,12 @@ def compare_all(
             calls = bias.calls(functions, arms, wanted, repeats, evaluations)
             study.run(bias.STUDY, calls, folder=store.folder, pool=pool, resume=resume)
         page = render(pool, store.folder, problems, settings)
-    print(f"report: {page} ({len(runs)} runs, {time.perf_counter() - started:.0f} s)")
+    print(f"report: {page} ({len(planned)} runs, {time.perf_counter() - started:.0f} s)")
     return DONE
+
+
+def _words(budgets: list[int]) -> str:
+    """Budgets in words; of many, the least and the greatest."""
+    if len(budgets) > 4:
+        return f"{budgets[0]} to {budgets[-1]} evaluations"
+    return " or ".join(str(budget) for budget in budgets) + " evaluations"

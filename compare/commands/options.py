@@ -229,6 +229,20 @@ def listed(names: Callable[[], Iterable[str]], words: str, name: str) -> Paramet
     )
 
 
+def _words_of(enum: str, name: str, words: str) -> Parameter:
+    """The parameter of an option that is a comma-separated list of members of an enum of the protocol."""
+
+    def read(kind: Any, tokens: Sequence[Token]) -> tuple[Any, ...]:
+        from compare.benchmark import protocol
+
+        members = getattr(protocol, enum)
+        return tuple(members(value) for value in several(tokens[0].value, [str(m) for m in members]))
+
+    return Parameter(
+        name=name, help=words, converter=read, n_tokens=1, metavar="NAME,..", show_default=_joined
+    )
+
+
 def _read_swarms(kind: Any, tokens: Sequence[Token]) -> tuple[str, ...]:
     return found_swarms(tokens[0].value)
 
@@ -247,6 +261,16 @@ Codings = Annotated[
     tuple[str, ...] | None,
     listed(_codings, "How a swarm's vector becomes a motion: published, shared, stretched; all if left out.",
            "--codings"),
+]  # fmt: skip
+Tracks = Annotated[
+    tuple[Any, ...],
+    _words_of("Track", "--tracks", "Rules: equal (the joints of the published coding share the budget),"
+              " paper (the papers' own: each of them has all of it)."),
+]  # fmt: skip
+SeenIn = Annotated[
+    tuple[Any, ...],
+    _words_of("Coordinates", "--coordinates", "How swarms see the durations: printed, mirrored,"
+              " offset (far away from zero)."),
 ]  # fmt: skip
 Swarms = Annotated[
     tuple[str, ...] | None,

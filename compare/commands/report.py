@@ -12,7 +12,6 @@ from compare.benchmark.run import workers
 from compare.commands import DONE
 from compare.commands.options import Jobs
 from compare.report.page import render
-from formulations import load
 
 
 def report(folder: Annotated[str, Parameter(name="DIR")], /, *, jobs: Jobs = 2) -> int:
@@ -25,8 +24,7 @@ def report(folder: Annotated[str, Parameter(name="DIR")], /, *, jobs: Jobs = 2) 
     """
     store = Store(Path(folder))
     settings = store.settings()
-    problems = {case: load(case) for case in settings.cases}
     with workers(jobs) as pool:
-        page = render(pool, store.folder, problems, settings)
+        page = render(pool, store.folder, store.problems(), settings)
     print(f"report: {page}")
     return DONE

@@ -11,7 +11,7 @@ from numpy.typing import ArrayLike
 from compare.audit.motion.printed_motion import PrintedMotion
 from compare.audit.paper import Paper, PrintedTimes
 from compare.benchmark.grade import Graded, Run, durations_of, grade
-from compare.benchmark.suite import Budget
+from compare.benchmark.protocol import Budget
 from formulations import FAMILIES, Problem, Trajectory, Verdict, check, family_bound
 from formulations.motion.verdict import QUANTITIES
 from formulations.problem.arrays import Array

@@ -15,11 +15,19 @@ from compare.audit import chapter
 from compare.benchmark.known_times import key_of_paper
 from compare.benchmark.ladders import LadderRecord
 from compare.benchmark.objective import CODINGS
+from compare.benchmark.protocol import Coordinates, Track
 from compare.benchmark.records.rejudge import judged_again
 from compare.benchmark.records.rows import Row, RowStatus
 from compare.benchmark.records.store import Settings, Store
 from compare.benchmark.run import each
-from compare.benchmark.statistics import Summary, best_claim, best_row, bound_of, summaries
+from compare.benchmark.statistics import (
+    Summary,
+    as_papers_run,
+    best_claim,
+    best_row,
+    bound_of,
+    summaries,
+)
 from compare.files import write_text
 from compare.report.figures.case import draw_case
 from compare.report.papers_at_a_glance import papers_at_a_glance
@@ -33,6 +41,12 @@ FIGURES = {
     "motion": "The best motion with its limits, and the best claim in the papers' coding (red).",
     "split": "Where the time goes, from the certified bound on every motion up to the motion of a swarm.",
     "convergence": "Gap against evaluations.",
+}
+
+TRACKS: dict[Track, str] = {
+    Track.equal: "",
+    Track.paper: "by the papers' own protocol each joint has the whole budget for itself",
+    Track.tuned: "constants tuned on the open instances",
 }
 
 LIMITATIONS = [
@@ -72,13 +86,13 @@ def render(pool: Executor, folder: Path, problems: dict[str, Problem], settings:
         The page.
     """
     store = Store(folder)
-    ladders, traces = store.ladders(), store.traces()
+    ladders = store.ladders()
     rows = judged_again(store.rows(), problems, ladders)
     calls = []
     for case, problem in problems.items():
         mine = [row for row in rows if row.case == case]
         held = {r.key for r in mine if r.status is not RowStatus.contradicted}
-        kept = {key: found for key, found in traces.items() if key in held}
+        kept = {key: found for key, found in store.traces(case) if key in held}
         calls.append((folder, case, problem, ladders[case], mine, kept))
     for _ in each(pool, "figures", draw_case, calls):
         pass
@@ -175,9 +189,8 @@ def _context(
     settings: Settings,
 ) -> dict[str, Any]:
     """What the templates say of the swarms."""
-    found = summaries(rows)
+    found = summaries(rows, allow=settings.allow)
     cases = [case for case in problems if case in ladders]
-    codings = [c for c in CODINGS if any(row.coding == c for row in rows)]
     ran = {row.swarm: row for row in rows}
     order = [name for name in ALGORITHMS if name in ran] + [
         name for name in ran if name not in ALGORITHMS
@@ -187,7 +200,7 @@ def _context(
     return {
         "cases": cases,
         "problems": problems,
-        "codings": {c: CODINGS[c] for c in codings},
+        "codings": {row.variant: _rules(row) for row in rows},
         "swarms": swarms,
         "groups": {
             title: members
@@ -208,6 +221,16 @@ def _context(
         "versions": rows[0].versions if rows else "",
         "limitations": LIMITATIONS,
     }
+
+
+def _rules(row: Row) -> str:
+    """What the variant of a row means."""
+    said = (
+        CODINGS[row.coding],
+        TRACKS[row.track],
+        "" if row.coordinates is Coordinates.printed else f"coordinates {row.coordinates}",
+    )
+    return "; ".join(part for part in said if part)
 
 
 @dataclass(frozen=True)
@@ -250,12 +273,13 @@ def _headline(
 ) -> dict[str, Any]:
     """One line per case: the optimum, the papers' best claim and what is left of it."""
     mine = [row for row in rows if row.case == case]
-    published = [s for (c, coding, _), s in found.items() if c == case and coding == "published"]
+    run = {row.variant for row in as_papers_run(mine)}
+    published = [s for (c, variant, _), s in found.items() if c == case and variant in run]
     return {
         "case": case,
         "optimum": ladder["ladder"]["family"]["seconds"],
         "claim": best_claim(mine),
-        "stretched": best_row(mine, coding="stretched"),
+        "stretched": best_row(mine, variant="stretched"),
         "breaking": sum(s.breaking for s in published),
         "published": sum(s.seeds for s in published),
     }

@@ -29,10 +29,26 @@ CODING_STYLE: dict[Any, Any] = {
     "stretched": (BLUE, "D"),
 }
 """Colour and marker of each coding."""
+_UNUSUAL: dict[str, tuple[str, str]] = {"published (paper)": (ORANGE, "^")}
 SMALLEST_GAP = 1e-12
 """Smaller gaps are rounding; on a logarithmic axis they are drawn at this value."""
 
 P = ParamSpec("P")
+
+
+def variant_style(variant: str) -> tuple[str, str]:
+    """Return colour and marker of a variant of a coding.
+
+    Parameters
+    ----------
+    variant : str
+        As `compare.benchmark.protocol.variant` names it.
+
+    Returns
+    -------
+    tuple of str
+    """
+    return CODING_STYLE.get(variant) or _UNUSUAL.get(variant, (PURPLE, "v"))
 
 
 def styled(draw: Callable[P, Figure]) -> Callable[P, Figure]:

@@ -34,9 +34,22 @@ def cell_text(value: object) -> str:
         if not math.isfinite(value):
             raise ValueError(f"{value!r} is not a finite number")
         return repr(float(value))
-    # text of a foreign program may hold line ends, or halves of characters that no file can hold
-    text = " ".join(str(value).splitlines())
-    return text.encode("utf-8", "backslashreplace").decode("utf-8")
+    return one_line(str(value))
+
+
+def one_line(text: str) -> str:
+    """Return text that any file can hold, on one line.
+
+    Parameters
+    ----------
+    text : str
+        Text of a foreign program: it may hold line ends, or halves of characters.
+
+    Returns
+    -------
+    str
+    """
+    return " ".join(text.splitlines()).encode("utf-8", "backslashreplace").decode("utf-8")
 
 
 def parser_of(kind: Any) -> Callable[[str], Any]:

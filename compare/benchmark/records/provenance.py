@@ -10,7 +10,7 @@ import json
 import os
 import platform
 import sysconfig
-from collections.abc import Iterator
+from collections.abc import Iterator, Mapping
 from dataclasses import dataclass, fields
 from functools import lru_cache
 from pathlib import Path
@@ -18,14 +18,15 @@ from typing import Any
 
 import numpy as np
 
+from compare.benchmark.coordinates import seen_in
 from compare.benchmark.objective import Objective
 from formulations import Problem
 from formulations.climb import versions
 from metaheuristics import Algorithm, algorithm, minimise
 from metaheuristics.entry import TIME_LIMIT
 
-# what every run goes through, whatever its swarm: the driver and the coding
-_ALWAYS = (minimise.__module__, Objective.__module__)
+# what every run goes through, whatever its swarm: the driver, the coding and the coordinates
+_ALWAYS = (minimise.__module__, Objective.__module__, seen_in.__module__)
 
 
 @dataclass(frozen=True, slots=True)
@@ -40,12 +41,13 @@ class Provenance:
     problem: str
     versions: str
 
-    def difference(self, row: object) -> str | None:
+    def difference(self, made_by: Mapping[str, object]) -> str | None:
         """Say in what a row differs from this provenance.
 
         Parameters
         ----------
-        row : Row
+        made_by : mapping of str to object
+            Columns of the row.
 
         Returns
         -------
@@ -53,7 +55,7 @@ class Provenance:
             The first difference in words, None if the row was made by the same.
         """
         for field in fields(self):
-            if getattr(row, field.name) != getattr(self, field.name):
+            if made_by[field.name] != getattr(self, field.name):
                 return _DIFFERENCES[field.name]
         # code that cannot be read may have changed
         return None if self.code else _DIFFERENCES["code"]

@@ -17,6 +17,7 @@ from typing import Any, NamedTuple, get_type_hints
 
 import numpy as np
 
+from compare.benchmark.protocol import Coordinates, Track, variant
 from compare.benchmark.records.cells import cell_text, parser_of
 from formulations import InputError
 from formulations.problem.arrays import Array
@@ -69,6 +70,8 @@ class RunKey(NamedTuple):
     seed: int
     budget: int
     population: int
+    track: Track = Track.equal
+    coordinates: Coordinates = Coordinates.printed
 
 
 @dataclass(frozen=True, slots=True)
@@ -96,7 +99,7 @@ class Row:
     gap, claimed_gap : float or None
         ``seconds / bound - 1`` and ``claimed / bound - 1``.
     budget : int
-        Evaluations, of each joint in the published coding; ``evaluations`` counts those made.
+        Evaluations over the whole motion; ``evaluations`` counts those made.
     durations : tuple of float, n_segments [s]
         Durations of the verified motion, or of the one that the check refused; empty if none.
     worst : str
@@ -130,6 +133,8 @@ class Row:
     claimed_gap: float | None
     budget: int
     population: int
+    track: Track
+    coordinates: Coordinates
     evaluations: int
     durations: tuple[float, ...]
     worst: str
@@ -145,7 +150,21 @@ class Row:
     @property
     def key(self) -> RunKey:
         """The run that the row belongs to."""
-        return RunKey(self.case, self.coding, self.swarm, self.seed, self.budget, self.population)
+        return RunKey(
+            self.case,
+            self.coding,
+            self.swarm,
+            self.seed,
+            self.budget,
+            self.population,
+            self.track,
+            self.coordinates,
+        )
+
+    @property
+    def variant(self) -> str:
+        """Its coding, with track and coordinates where they are not the usual ones."""
+        return variant(self.coding, self.track, self.coordinates)
 
     def measured_against(self, bound: float | None, proof: BoundProof) -> Row:
         """Return the same row with its gaps measured against another time.

@@ -1,65 +1,34 @@
-"""The results of one comparison on disk: written as each run ends, read back by whoever needs them.
+"""The results of one comparison on disk: ``DIR/results.sqlite``, and ``DIR/rows.csv`` made from it.
 
-rows.csv               one line per run; lines are appended whole, so a killed run leaves whole rows
-traces.jsonl           one line per run: best fitness against evaluations
-rows-set-aside.csv     rows that ``--resume`` could not use
-ladders/CASE.json      every bound of a case
-known_times/CASE.json  what a case's paper printed, beside all that is known of its task
-papers/KEY/audit.json  the audit of a paper and of its variants
-settings.json          what was asked for
+A run is one transaction, committed as the run ends: its row and its traces are there together or not at
+all, whatever kills the program. Rows of other code, versions or budgets stay in the file; what is read
+back are the rows of the plan alone. `compare.benchmark.records.database` holds the tables.
 """
 
 from __future__ import annotations
 
-import json
-import os
-from collections.abc import Collection, Mapping
-from dataclasses import asdict, dataclass
+import secrets
+import sqlite3
+from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
+from contextlib import contextmanager
+from dataclasses import asdict
 from pathlib import Path
-from typing import Any
+from typing import Any, TypeVar
 
 from compare.benchmark.grade import Graded, Run, Trace
 from compare.benchmark.known_times import KnownTime
 from compare.benchmark.ladders import LadderRecord, checked_ladder_record
-from compare.benchmark.records.rows import Row, RunKey, csv_text, read_csv
-from compare.files import write_json, write_text
-from formulations import InputError
+from compare.benchmark.records.database import documents, makers, runs
+from compare.benchmark.records.database.connection import Database
+from compare.benchmark.records.exports.csv_ import write_rows
+from compare.benchmark.records.proof_cache import ProofKey
+from compare.benchmark.records.rows import BoundProof, Row, RunKey
+from compare.benchmark.records.settings import Settings
+from formulations import InputError, Problem
 
+__all__ = ["Settings", "Store"]
 
-@dataclass(frozen=True, slots=True)
-class Settings:
-    """What was asked for: size (default, quick or full), cases, number of seeds, budget in words."""
-
-    size: str
-    cases: tuple[str, ...]
-    seeds: int
-    budget: str
-
-    @staticmethod
-    def from_json(data: Any) -> Settings:
-        """Parse plain data.
-
-        Parameters
-        ----------
-        data : object
-            What was read from JSON.
-
-        Returns
-        -------
-        Settings
-
-        Raises
-        ------
-        ValueError
-            If an entry is missing or of another type.
-        """
-        if not isinstance(data, dict):
-            raise ValueError("not a table")
-        cases = data.get("cases")
-        found = (data.get("size"), data.get("seeds"), data.get("budget"))
-        if [type(value) for value in found] != [str, int, str] or not isinstance(cases, list):
-            raise ValueError("unexpected entries")
-        return Settings(data["size"], tuple(str(case) for case in cases), data["seeds"], data["budget"])
+T = TypeVar("T")
 
 
 class Store:
@@ -72,87 +41,167 @@ class Store:
 
     def __init__(self, folder: Path) -> None:
         self.folder = folder
+        self.file = folder / "results.sqlite"
         self.rows_file = folder / "rows.csv"
-        self.traces_file = folder / "traces.jsonl"
-        self.set_aside_file = folder / "rows-set-aside.csv"
+        self._database = Database(self.file)
+        self._salt = secrets.token_hex(8)  # see `makers.maker_id`
+        self._plan: int | None = None
+
+    def close(self) -> None:
+        """Close the file; the next use opens it again."""
+        self._database.close()
 
     def clear(self) -> None:
-        """Start afresh: a table without rows, and nothing of an earlier comparison."""
-        self._replace([], {})
-        self.set_aside_file.unlink(missing_ok=True)
-        for pattern in ("ladders/*.json", "known_times/*.json", "papers/*/audit.json"):
-            for old in self.folder.glob(pattern):
-                old.unlink()
+        """Start afresh: nothing of an earlier comparison, but the bounds that were proved."""
+        self._plan = None
+        self.rows_file.unlink(missing_ok=True)
+        with self._database.writing() as connection:
+            for table in ("planned", "plans", "traces", "runs", "makers", "instances", "documents"):
+                connection.execute(f"DELETE FROM {table}")
 
-    def mend(self) -> None:
-        """Drop a last line that was cut short. Each file is replaced whole, in one step."""
-        self._replace(self.rows(), self.traces())
+    # --- runs -------------------------------------------------------------------------------------
 
-    def keep(self, rows: Collection[Row]) -> None:
-        """Keep these rows and their traces alone; the others go to ``rows-set-aside.csv``.
+    def write_plan(self, planned: Sequence[Run], problems: Mapping[str, Problem]) -> None:
+        """Keep which runs are asked for; from now on only their rows are read.
 
         Parameters
         ----------
-        rows : collection of Row
-            Some of the stored rows; their gaps may have been measured again.
+        planned : sequence of Run
+            In the order of the rows.
+        problems : mapping of str to Problem
+            By case.
         """
-        kept = {row.key for row in rows}
-        others, seen = [], set()
-        for row in self.rows():
-            if row.key not in kept or row.key in seen:
-                others.append(row)
-            seen.add(row.key)
-        if others:  # first, so that an interrupt loses none
-            aside = [row for row in self.set_aside() if row not in others]
-            write_text(self.set_aside_file, csv_text([*aside, *others]))
-        self._replace(rows, {key: found for key, found in self.traces().items() if key in kept})
+        with self._database.writing() as connection:
+            self._plan = makers.write_plan(connection, planned, problems, self._salt)
+
+    def left(self) -> list[int]:
+        """Return the places in the plan of the runs that are not stored.
+
+        Returns
+        -------
+        list of int
+        """
+        return self._read(lambda c, plan: [] if plan is None else runs.left_of_plan(c, plan), [])
+
+    def outside(self) -> list[tuple[dict[str, Any], int]]:
+        """Return what is stored and not in the plan: what made it, and how many runs.
+
+        Returns
+        -------
+        list of (dict, int)
+            Columns that all seeds of a swarm share, by name, and the number of runs.
+        """
+
+        def read(connection: sqlite3.Connection, plan: int | None) -> list[tuple[dict[str, Any], int]]:
+            if plan is None:
+                return []
+            known = makers.makers(connection)
+            return [(known[m], n) for m, n in runs.outside_of_plan(connection, plan).items()]
+
+        return self._read(read, [])
 
     def add(self, graded: Graded) -> None:
-        """Append one finished run; its traces first, so that every row has them.
+        """Store one finished run, row and traces, before this returns.
 
         Parameters
         ----------
         graded : Graded
-        """
-        _append(self.traces_file, _trace_line(graded.run.key, graded.traces))
-        _append(self.rows_file, csv_text([graded.row], header=False))
 
-    def sort(self, order: list[Run]) -> None:
-        """Write the rows again in the order of the runs, whatever order they ended in.
+        Raises
+        ------
+        InputError
+            If the disk is full, or if another result of the same run by the same code is stored.
+        """
+        self.add_all([(graded.row, graded.traces)])
+
+    def add_all(self, results: Iterable[tuple[Row, Sequence[Trace]]]) -> None:
+        """Store runs in one transaction: all of them, or none.
 
         Parameters
         ----------
-        order : list of Run
+        results : iterable of (Row, sequence of Trace)
         """
-        place = {run.key: i for i, run in enumerate(order)}
-        rows = sorted(self.rows(), key=lambda row: place.get(row.key, len(place)))
-        write_text(self.rows_file, csv_text(rows))
+        with self._database.writing() as connection:
+            for row, traces in results:
+                try:
+                    runs.write_run(connection, row, traces, self._salt)
+                except ValueError as error:
+                    raise InputError(f"{self.file}: {error}") from None
 
-    def rows(self) -> list[Row]:
-        """Every whole row as it stands in the file; a last line that was cut short is left out."""
-        return read_csv(self.rows_file)
+    def measure(self, bounds: Mapping[str, tuple[float | None, BoundProof]]) -> None:
+        """Measure the gaps of the plan's rows against these times.
 
-    def set_aside(self) -> list[Row]:
-        """Rows that an earlier ``--resume`` could not use."""
-        return read_csv(self.set_aside_file)
+        Parameters
+        ----------
+        bounds : mapping of str to (float or None [s], BoundProof)
+            By case.
+        """
+        with self._database.writing() as connection:
+            plan = self._plan_of(connection)
+            wanted = {(case, bound, str(proof)) for case, (bound, proof) in bounds.items()}
+            stale = {case for case, *_ in runs.bounds_in_use(connection, plan) - wanted}
+            rows = (row for row in runs.read_rows(connection, plan) if row.case in stale & set(bounds))
+            again = [row.measured_against(*bounds[row.case]) for row in rows] if stale else []
+            runs.update_gaps(connection, again, self._salt)
 
-    def traces(self) -> dict[RunKey, list[Trace]]:
-        """Traces by run; a last line that was cut short is left out."""
-        try:
-            text = self.traces_file.read_text("utf-8")
-        except FileNotFoundError:
-            return {}
-        found = {}
-        for line in text[: text.rfind("\n") + 1].splitlines():
-            try:
-                entry = json.loads(line)
-                found[RunKey(*entry["run"])] = [
-                    Trace(t["joint"], t["evaluations"], [_infinite(b) for b in t["best"]])
-                    for t in entry["traces"]
-                ]
-            except (ValueError, KeyError, TypeError) as error:
-                raise InputError(f"{self.traces_file}: not a trace: {error}") from None
-        return found
+    def rows(self, *, every: bool = False) -> list[Row]:
+        """Return the rows of the plan, in its order; traces are not read.
+
+        Parameters
+        ----------
+        every : bool
+            All rows instead, those of other plans, code and versions too, in the order of writing. A
+            store without a plan gives these in any case.
+
+        Returns
+        -------
+        list of Row
+        """
+        return list(self.iterate_rows(every=every))
+
+    def iterate_rows(self, *, every: bool = False) -> Iterator[Row]:
+        """Read the same rows one by one.
+
+        Parameters
+        ----------
+        every : bool
+            As for ``rows``.
+
+        Yields
+        ------
+        Row
+        """
+        if self._database.exists():
+            with self._reading() as connection:
+                plan = None if every else self._plan_of(connection)
+                yield from runs.read_rows(connection, plan)
+
+    def traces(self, case: str | None = None) -> Iterator[tuple[RunKey, list[Trace]]]:
+        """Read the traces of the same runs, one run after the other.
+
+        Parameters
+        ----------
+        case : str, optional
+            Only those of this case.
+
+        Yields
+        ------
+        key : RunKey
+        traces : list of Trace
+        """
+        if self._database.exists():
+            with self._reading() as connection:
+                yield from runs.read_traces(connection, self._plan_of(connection), case)
+
+    def write_csv(self) -> None:
+        """Write ``rows.csv``: the rows of the plan, in its order."""
+        write_rows(self.iterate_rows(), self.rows_file)
+
+    # --- what goes with the runs ------------------------------------------------------------------
+
+    def problems(self) -> dict[str, Problem]:
+        """Return the problems of the plan by case, as they were when it was run."""
+        return self._read(documents.problems_of_plan, {})
 
     def write_settings(self, settings: Settings) -> None:
         """Keep what was asked for.
@@ -161,29 +210,51 @@ class Store:
         ----------
         settings : Settings
         """
-        write_json(self.folder / "settings.json", asdict(settings))
+        self._write("settings", "", asdict(settings))
 
     def settings(self) -> Settings:
         """What was asked for. Raises InputError if the folder holds no comparison."""
+        found = self._documents("settings")
+        if not found:
+            raise InputError(f"{self.folder}: holds no comparison")
         try:
-            return Settings.from_json(json.loads((self.folder / "settings.json").read_text("utf-8")))
-        except (OSError, ValueError) as error:
-            raise InputError(f"{self.folder}: holds no comparison: {error}") from None
+            return Settings.from_json(found[""])
+        except ValueError as error:
+            raise InputError(f"{self.file}: {error}") from None
 
-    def write_ladder(self, case: str, ladder: LadderRecord) -> None:
+    def write_ladder(self, case: str, ladder: LadderRecord, key: ProofKey | None = None) -> None:
         """Keep the bounds of a case.
 
         Parameters
         ----------
         case : str
         ladder : LadderRecord
+        key : ProofKey, optional
+            What they depend on; they are found again by it, in later comparisons too.
         """
-        self._write(f"ladders/{case}.json", ladder)
+        with self._database.writing() as connection:
+            documents.write_document(connection, "ladder", case, ladder)
+            if key is not None:
+                documents.write_proof(connection, key, ladder)
 
     def ladders(self) -> dict[str, LadderRecord]:
         """Bounds by case, in alphabetical order."""
-        paths = sorted(self.folder.glob("ladders/*.json"))
-        return {path.stem: checked_ladder_record(_read(path), path) for path in paths}
+        found = self._documents("ladder")
+        return {case: checked_ladder_record(data, self.file) for case, data in found.items()}
+
+    def proved(self, key: ProofKey) -> LadderRecord | None:
+        """Return bounds that were found before, by the same code for the same problem.
+
+        Parameters
+        ----------
+        key : ProofKey
+
+        Returns
+        -------
+        LadderRecord or None
+        """
+        found = self._read(lambda connection, _: documents.proof(connection, key), None)
+        return None if found is None else checked_ladder_record(found, self.file)
 
     def write_known_times(self, case: str, lines: list[KnownTime]) -> None:
         """Keep what is known of the task of a case.
@@ -193,17 +264,32 @@ class Store:
         case : str
         lines : list of KnownTime
         """
-        self._write(f"known_times/{case}.json", [asdict(line) for line in lines])
+        self._write("known times", case, [asdict(line) for line in lines])
 
     def known_times(self) -> dict[str, list[KnownTime]]:
         """What is known of the task of each case."""
-        found = {}
-        for path in sorted(self.folder.glob("known_times/*.json")):
-            try:
-                found[path.stem] = [KnownTime(**line) for line in _read(path)]
-            except TypeError as error:
-                raise InputError(f"{path}: not a table of known times: {error}") from None
-        return found
+        try:
+            return {
+                case: [KnownTime(**line) for line in lines]
+                for case, lines in self._documents("known times").items()
+            }
+        except TypeError as error:
+            raise InputError(f"{self.file}: not a table of known times: {error}") from None
+
+    def write_instance(self, name: str, data: dict[str, Any]) -> None:
+        """Keep what is known of an instance, as plain data.
+
+        Parameters
+        ----------
+        name : str
+        data : dict
+            Ready for strict JSON.
+        """
+        self._write("instance", name, data)
+
+    def instances(self) -> dict[str, dict[str, Any]]:
+        """Instances by name, as plain data."""
+        return self._documents("instance")
 
     def write_audit(self, paper: str, made_of: Mapping[str, str], audits: list[dict[str, Any]]) -> None:
         """Keep the audits of a paper and its variants.
@@ -216,56 +302,37 @@ class Store:
         audits : list of dict
             As `compare.audit.Audit.to_json` gives them.
         """
-        self._write(f"papers/{paper}/audit.json", {**made_of, "audits": audits})
+        self._write("audit", paper, {**made_of, "audits": audits})
 
     def audits(self) -> dict[str, dict[str, Any]]:
         """By paper: what its audit was made of, and ``audits``, a list."""
-        paths = sorted(self.folder.glob("papers/*/audit.json"))
-        return {path.parent.name: _read(path) for path in paths}
+        return self._documents("audit")
 
-    def _replace(self, rows: Collection[Row], traces: Mapping[RunKey, list[Trace]]) -> None:
-        """Write both files anew, each whole or not at all."""
-        lines = [_trace_line(key, found) for key, found in traces.items()]
-        write_text(self.rows_file, csv_text(rows))
-        write_text(self.traces_file, "".join(lines))
+    # --- the database -----------------------------------------------------------------------------
 
-    def _write(self, name: str, data: Any) -> None:
-        path = self.folder / name
-        path.parent.mkdir(parents=True, exist_ok=True)
-        write_json(path, data)
+    @contextmanager
+    def _reading(self) -> Iterator[sqlite3.Connection]:
+        """The connection; a value that does not fit becomes one line."""
+        with self._database.reading() as connection:
+            try:
+                yield connection
+            except ValueError as error:
+                raise InputError(f"{self.file}: {error}") from None
 
+    def _read(self, function: Callable[[sqlite3.Connection, int | None], T], nothing: T) -> T:
+        """What a function of connection and plan reads; ``nothing`` if there is no file."""
+        if not self._database.exists():
+            return nothing
+        with self._reading() as connection:
+            return function(connection, self._plan_of(connection))
 
-def _read(path: Path) -> Any:
-    """JSON of a file. Raises InputError if it holds none."""
-    try:
-        return json.loads(path.read_text("utf-8"))
-    except (OSError, ValueError) as error:
-        raise InputError(f"{path}: cannot be read: {error}") from None
+    def _plan_of(self, connection: sqlite3.Connection) -> int | None:
+        """The plan of this object, else the one that was used last."""
+        return makers.last_plan(connection) if self._plan is None else self._plan
 
+    def _documents(self, kind: str) -> dict[str, Any]:
+        return self._read(lambda connection, _: documents.documents(connection, kind), {})
 
-def _append(path: Path, line: str) -> None:
-    """Append one whole line in one write."""
-    try:
-        descriptor = os.open(path, os.O_WRONLY | os.O_APPEND | os.O_CREAT, 0o644)
-        try:
-            data = line.encode()
-            if os.write(descriptor, data) != len(data):
-                raise OSError("no space left on device")
-        finally:
-            os.close(descriptor)
-    except OSError as error:
-        raise InputError(f"{path}: cannot be written: {error.strerror or error}") from None
-
-
-def _trace_line(key: RunKey, traces: list[Trace]) -> str:
-    plain = []
-    for trace in traces:
-        entry = asdict(trace)
-        # JSON has no infinity: nothing feasible so far
-        entry["best"] = [b if b < float("inf") else None for b in trace.best]
-        plain.append(entry)
-    return json.dumps({"run": list(key), "traces": plain}, allow_nan=False) + "\n"
-
-
-def _infinite(value: float | None) -> float:
-    return float("inf") if value is None else float(value)
+    def _write(self, kind: str, name: str, data: Any) -> None:
+        with self._database.writing() as connection:
+            documents.write_document(connection, kind, name, data)

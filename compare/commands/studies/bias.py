@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from compare.benchmark import suite
+from compare.benchmark.protocol import swarms_of
 from compare.commands.options import CORES, Budget, Cases, Jobs, Json, Out, Resume, Seeds, Swarms
 from compare.commands.studies import in_workers
 from compare.studies.drawn_to_zero.bias import STUDY, calls
@@ -27,6 +27,6 @@ def bias(
     function, or the zero of its coordinates, is moved. A swarm that does not know where zero is has
     the factor 1. Files: DIR/bias.csv, bias.json, figures/bias.svg.
     """
-    wanted = list(swarms or suite.swarms_of("default"))
+    wanted = list(swarms or swarms_of("default"))
     listed = calls(list(FUNCTIONS), list(cases or CASES), wanted, seeds, budget)
     return in_workers(STUDY, listed, out=out, jobs=jobs, resume=resume, json=json)

@@ -6,7 +6,7 @@ from functools import cache
 from typing import Any
 
 from compare.audit.paper import Paper, PrintedTimes, load_papers, settings
-from compare.benchmark.suite import Budget
+from compare.benchmark.protocol import Budget
 from formulations import Problem, family_bound, family_optimum, load
 
 SWARMS = {"mpso": "factors as printed", "mpso-times-ten": "factors times ten"}

@@ -11,7 +11,7 @@ import numpy as np
 from matplotlib.figure import Figure
 
 from compare.benchmark.grade import Graded
-from compare.benchmark.suite import Budget
+from compare.benchmark.protocol import Budget
 from compare.papers.item import Item, Shown, Table
 from compare.papers.measure import trials
 from compare.papers.pictures.descent import descent, draw_descent

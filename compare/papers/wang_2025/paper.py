@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from compare.audit.paper import Paper, load_papers, settings
-from compare.benchmark.suite import Budget
+from compare.benchmark.protocol import Budget
 
 SWARM = "mipso"
 ALONE = (

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from compare.audit.paper import ArithmeticClaim, Paper, load_papers
-from compare.benchmark.suite import PAPER_BUDGETS
+from compare.benchmark.protocol import PAPER_BUDGETS
 
 BUDGET = PAPER_BUDGETS["cobot"]
 RUNS = {False: 15, True: 100}

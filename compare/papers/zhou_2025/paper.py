@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from compare.audit.paper import Paper, load_papers
-from compare.benchmark.suite import PAPER_BUDGETS
+from compare.benchmark.protocol import PAPER_BUDGETS
 from formulations import Problem, load
 
 BUDGET = PAPER_BUDGETS["ur5"]

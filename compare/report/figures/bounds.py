@@ -47,7 +47,7 @@ def ladder_figure(problem: Problem, ladder: LadderRecord, rows: Sequence[Row]) -
             entries.append((f"{name}: BREAKS LIMITS", claim.claimed, VERMILION, "X"))
             name = f"that claim, slowed by {claim.stretch:.4f} until it keeps them"
             entries.append((name, claim.seconds, ORANGE, "o"))
-    stretched = best_row(rows, coding="stretched")
+    stretched = best_row(rows, variant="stretched")
     if stretched is not None and stretched.seconds is not None:
         name = f"best swarm, stretched coding ({stretched.swarm})"
         entries.append((name, stretched.seconds, ORANGE, "o"))

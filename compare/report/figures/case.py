@@ -17,7 +17,7 @@ from compare.benchmark.statistics import lower_median, times_of
 from compare.files import write_text
 from compare.report.figures import convergence_figure, gap_figure, ladder_figure, motion_figure
 from compare.report.motion_picture import fastest_spline
-from compare.report.style import CODING_STYLE, STYLE
+from compare.report.style import STYLE
 from compare.studies.time_split import split, split_figure
 from formulations import Problem
 
@@ -81,7 +81,7 @@ def draw_case(
 
 
 def where_the_time_goes(problem: Problem, ladder: LadderRecord, rows: Sequence[Row]) -> Figure:
-    """Draw the shares of lost time of one swarm's median motion, in each coding.
+    """Draw the shares of lost time of one swarm's median motion, in each variant of a coding.
 
     Parameters
     ----------
@@ -97,9 +97,9 @@ def where_the_time_goes(problem: Problem, ladder: LadderRecord, rows: Sequence[R
     """
     swarm = rows[0].swarm if all(row.swarm != "pso" for row in rows) else "pso"
     splits = {}
-    for coding in CODING_STYLE:
-        mine = [row for row in rows if row.swarm == swarm and row.coding == coding]
+    for variant in dict.fromkeys(row.variant for row in rows):
+        mine = [row for row in rows if row.swarm == swarm and row.variant == variant]
         seconds = lower_median(times_of(mine))
         if seconds is not None and ladder["ladder"]["free_form"]["seconds"]:
-            splits[coding] = split(problem, ladder["ladder"], seconds, coding)
+            splits[variant] = split(problem, ladder["ladder"], seconds, mine[0].coding)
     return split_figure(f"{problem.name}: where the time of {swarm} goes (median seed)", splits)

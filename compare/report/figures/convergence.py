@@ -43,7 +43,7 @@ def convergence_figure(
     rows: Sequence[Row],
     traces: Mapping[RunKey, list[Trace]],
 ) -> Figure:
-    """Draw the median gap against evaluations: a row per group of swarms, a column per coding.
+    """Draw the median gap against evaluations: a row per group of swarms, a column per variant of a coding.
 
     Parameters
     ----------
@@ -60,7 +60,7 @@ def convergence_figure(
     Figure
     """
     swarms = list(dict.fromkeys(row.swarm for row in rows))
-    codings = list(dict.fromkeys(row.coding for row in rows))
+    variants = list(dict.fromkeys(row.variant for row in rows))
     groups: dict[str, list[str]] = {}
     for swarm in swarms:
         group = ALGORITHMS[swarm].group if swarm in ALGORITHMS else "rivals"
@@ -70,21 +70,21 @@ def convergence_figure(
     if optimum is not None:
         optima[-1] = optimum
     figure, grid = plt.subplots(
-        len(groups), len(codings), figsize=(10.5, 0.9 + 2.1 * len(groups)),
+        len(groups), len(variants), figsize=(10.5, 0.9 + 2.1 * len(groups)),
         sharex="col", sharey=True, squeeze=False, layout="none",
     )  # fmt: skip
     curves = {}
-    for coding in codings:
+    for variant in variants:
         for swarm in swarms:
-            mine = [r for r in rows if r.swarm == swarm and r.coding == coding]
+            mine = [r for r in rows if r.swarm == swarm and r.variant == variant]
             found = [traces[r.key] for r in mine if r.key in traces]
             if found and optimum is not None:
-                curves[coding, swarm] = convergence(found, optima, mine[0].budget)
+                curves[variant, swarm] = convergence(found, optima, mine[0].budget)
     for panels, (group, members) in zip(grid, groups.items(), strict=True):
-        for axes, coding in zip(panels, codings, strict=True):
+        for axes, variant in zip(panels, variants, strict=True):
             others = []
             for (where, swarm), (at, quartiles) in curves.items():
-                if where != coding:
+                if where != variant:
                     continue
                 if swarm in members:
                     style = SWARM_STYLE[members.index(swarm) % len(SWARM_STYLE)]
@@ -101,10 +101,9 @@ def convergence_figure(
         handles, labels = panels[-1].get_legend_handles_labels()
         panels[-1].legend(handles, labels, loc="center left", bbox_to_anchor=(1.0, 0.5),
                           frameon=False, fontsize=7.5)  # fmt: skip
-    for column, coding in enumerate(codings):
-        grid[0][column].set_title(coding, loc="left")
-        per = " of each joint" if coding == "published" else ""
-        grid[-1][column].set_xlabel(f"evaluations{per}")
+    for column, variant in enumerate(variants):
+        grid[0][column].set_title(variant, loc="left")
+        grid[-1][column].set_xlabel("evaluations, whole motion")
     # margins in inches: computing the layout of so many panels takes seconds
     high = figure.get_figheight()
     figure.subplots_adjust(left=0.085, right=0.84, bottom=0.5 / high, top=1 - 0.55 / high,

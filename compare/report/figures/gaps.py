@@ -1,4 +1,4 @@
-"""The gap of every run of one case: a lane per swarm and coding."""
+"""The gap of every run of one case: a lane per swarm and variant of a coding."""
 
 from __future__ import annotations
 
@@ -9,7 +9,7 @@ from matplotlib.figure import Figure
 
 from compare.benchmark.records.rows import Row
 from compare.benchmark.statistics import gaps_of, median
-from compare.report.style import BLACK, CODING_STYLE, GREY, SMALLEST_GAP, styled
+from compare.report.style import BLACK, GREY, SMALLEST_GAP, styled, variant_style
 from formulations import Problem
 
 
@@ -30,15 +30,15 @@ def gap_figure(problem: Problem, rows: Sequence[Row]) -> Figure:
     Figure
     """
     swarms = list(dict.fromkeys(row.swarm for row in rows))
-    codings = list(dict.fromkeys(row.coding for row in rows))
+    variants = list(dict.fromkeys(row.variant for row in rows))
     figure, axes = plt.subplots(figsize=(9.0, 1.2 + 0.34 * len(swarms)))
     for row_index, swarm in enumerate(swarms):
         if row_index % 2:
             axes.axhspan(row_index - 0.5, row_index + 0.5, color="#000000", alpha=0.035, lw=0)
-        for lane, coding in enumerate(codings):
-            colour, marker = CODING_STYLE[coding]
-            y = row_index + (lane - (len(codings) - 1) / 2) * 0.25
-            group = [r for r in rows if r.swarm == swarm and r.coding == coding]
+        for lane, variant in enumerate(variants):
+            colour, marker = variant_style(variant)
+            y = row_index + (lane - (len(variants) - 1) / 2) * 0.75 / len(variants)
+            group = [r for r in rows if r.swarm == swarm and r.variant == variant]
             middle = median(gaps_of(group))
             unsolved = sum(r.gap is None for r in group)
             for kept, face in ((True, colour), (False, "white")):
@@ -52,9 +52,9 @@ def gap_figure(problem: Problem, rows: Sequence[Row]) -> Figure:
                 text = f"{unsolved} of {len(group)} without a verified motion"
                 axes.text(0.995, y, text, color=colour, fontsize=7, va="center", ha="right",
                           transform=axes.get_yaxis_transform())  # fmt: skip
-    for coding in codings:
-        colour, marker = CODING_STYLE[coding]
-        axes.plot([], [], marker, color=colour, ls="", label=coding)
+    for variant in variants:
+        colour, marker = variant_style(variant)
+        axes.plot([], [], marker, color=colour, ls="", label=variant)
     axes.plot([], [], "o", mec=GREY, mfc="white", ls="", label="claimed motion breaks limits")
     axes.plot([], [], "|", color=BLACK, ls="", ms=9, mew=1.6, label="median")
     axes.set_xscale("log")
@@ -66,7 +66,7 @@ def gap_figure(problem: Problem, rows: Sequence[Row]) -> Figure:
     axes.set_xlabel("gap of the verified motion to the family's optimum [%], every seed a mark")
     axes.set_title(f"{problem.name}: how far each swarm is from the best in its family", loc="left")
     axes.legend(
-        ncols=5,
+        ncols=6,
         fontsize=7.5,
         loc="upper center",
         bbox_to_anchor=(0.5, -0.5 / (1.0 + 0.34 * len(swarms))),

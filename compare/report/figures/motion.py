@@ -43,7 +43,7 @@ def motion_figure(problem: Problem, ladder: LadderRecord, rows: Sequence[Row]) -
     optimum = np.array(ladder["durations"]["family"])
     title, motion = "optimum of the family (NLP)", family.trajectory(problem, optimum)
     if best is not None:
-        title = f"best swarm: {best.swarm}, {best.coding}, {best.seconds:.4f} s"
+        title = f"best swarm: {best.swarm}, {best.variant}, {best.seconds:.4f} s"
         motion = family.trajectory(problem, durations_of(best))
     claim = best_claim(rows)
     claimed = None if claim is None else _claimed_motion(problem, claim)

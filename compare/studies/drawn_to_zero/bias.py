@@ -18,12 +18,13 @@ import matplotlib.pyplot as plt
 import numpy as np
 from matplotlib.figure import Figure
 
+from compare.benchmark.coordinates import seen_in
 from compare.benchmark.objective import Objective, search_box
+from compare.benchmark.protocol import Coordinates
 from compare.benchmark.records.provenance import code_digest
 from compare.report.style import BLUE, GREY, ORANGE, PURPLE, VERMILION, styled
 from compare.screen import table
 from compare.studies.drawn_to_zero.centred_functions import DIM, FUNCTIONS, HALF
-from compare.studies.drawn_to_zero.origin_shift import COORDINATES, seen_in
 from compare.studies.study import Call, Study, optima_of
 from formulations import Problem, load
 from formulations.problem.arrays import Array
@@ -83,7 +84,7 @@ def on_function(name: str, swarm: str, seeds: int, budget: int) -> list[BiasRun]
         lo, hi = np.full(DIM, -HALF), np.full(DIM, HALF)
         places: dict[str, tuple[Callable[[Array], Array], Array, Array]] = {
             "centre": (FUNCTIONS[name], lo, hi),
-            "translated": seen_in("offset", FUNCTIONS[name], lo, hi),
+            "translated": seen_in(Coordinates.offset, FUNCTIONS[name], lo, hi),
             "shifted": (partial(_minus, FUNCTIONS[name], shift), lo, hi),
         }
         rows += [_run(name, place, swarm, seed, budget, *seen) for place, seen in places.items()]
@@ -118,7 +119,7 @@ def on_arm(
     gap = partial(_gap, Objective(problem, stretch=True), optimum)
     return [
         _run(case, name, swarm, seed, budget, *seen_in(name, gap, *search_box(problem)))
-        for name in COORDINATES
+        for name in Coordinates
         for seed in range(seeds)
     ]
 

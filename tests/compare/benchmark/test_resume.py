@@ -10,9 +10,9 @@ from pathlib import Path
 import pytest
 from graded_runs import without_times
 
-from compare.benchmark import suite
 from compare.benchmark.grade import Run
 from compare.benchmark.ladders import LadderRecord
+from compare.benchmark.plan import runs
 from compare.benchmark.records import provenance
 from compare.benchmark.records.provenance import code_digest
 from compare.benchmark.records.rows import csv_text
@@ -50,9 +50,7 @@ def store(tmp_path: Path) -> Store:
 
 
 def plan(swarms: tuple[str, ...] = ("pso",), seeds: int = 4, evaluations: int = 60) -> list[Run]:
-    return suite.runs(
-        cases=["cobot"], swarms=list(swarms), codings=["shared"], seeds=seeds, evaluations=evaluations
-    )
+    return runs(PROBLEMS, swarms=list(swarms), codings=["shared"], seeds=seeds, evaluations=evaluations)
 
 
 def fresh(pool: Executor, folder: Path, runs: list[Run]) -> list[dict[str, object]]:

@@ -15,6 +15,7 @@ from graded_runs import graded
 from hypothesis import given
 from hypothesis import strategies as st
 
+from compare.benchmark.protocol import Coordinates, Track
 from compare.benchmark.records.rows import (
     COLUMNS,
     TIMING_COLUMNS,
@@ -41,6 +42,8 @@ by_type: dict[str, st.SearchStrategy[Any]] = {
     "tuple[float, ...]": st.lists(numbers).map(tuple),
     "RowStatus": st.sampled_from(RowStatus),
     "BoundProof": st.sampled_from(BoundProof),
+    "Track": st.sampled_from(Track),
+    "Coordinates": st.sampled_from(Coordinates),
 }
 rows = st.fixed_dictionaries({f.name: by_type[str(f.type)] for f in fields(Row)}).map(
     lambda columns: Row(**columns)

@@ -8,7 +8,7 @@ import pytest
 
 from compare.benchmark.grade import Trace
 from compare.benchmark.objective import Objective, search_box
-from compare.benchmark.suite import Budget
+from compare.benchmark.protocol import Budget
 from compare.papers.li_2022.figure_5 import evolution
 from compare.papers.li_2022.paper import budget as li_budget
 from compare.papers.measure import judged, least, spline, summary, trials

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from compare.audit.paper import load_papers, settings
 from compare.audit.paper.digits import values
-from compare.benchmark.suite import PAPER_BUDGETS
+from compare.benchmark.protocol import PAPER_BUDGETS
 from compare.papers.li_2022.paper import budget as li_budget
 from compare.papers.measure import judged_row
 from compare.papers.wang_2025 import ablation, joint_1

@@ -67,7 +67,7 @@ from typing import Any
 
 from compare.audit.paper import load_papers, settings
 from compare.audit.paper.digits import values
-from compare.benchmark.suite import Budget
+from compare.benchmark.protocol import Budget
 from compare.papers.item import Item, Shown, Table
 from compare.papers.measure import summary, trials
 from compare.papers.verdicts import same_times

@@ -12,15 +12,22 @@ from graded_runs import without_times
 from hypothesis import given
 from hypothesis import strategies as st
 
+from compare.benchmark.coordinates import seen_in
 from compare.benchmark.grade import Run, grade
 from compare.benchmark.objective import Objective, search_box
-from compare.benchmark.suite import DEFAULT_CONTROLS, FULL_CONTROLS, QUICK_SWARMS, runs, swarms_of
+from compare.benchmark.plan import runs
+from compare.benchmark.protocol import (
+    DEFAULT_CONTROLS,
+    FULL_CONTROLS,
+    QUICK_SWARMS,
+    Coordinates,
+    swarms_of,
+)
 from compare.papers.wang_2025 import ablation, cec2017
 from compare.papers.wang_2025 import joint_1 as table8
 from compare.studies import readings
 from compare.studies.drawn_to_zero import bias
 from compare.studies.drawn_to_zero.centred_functions import FUNCTIONS
-from compare.studies.drawn_to_zero.origin_shift import COORDINATES, seen_in
 from compare.studies.speed_swarms import costs
 from formulations import InputError, load
 from metaheuristics import ALGORITHMS
@@ -64,7 +71,7 @@ def test_the_default_runs_every_algorithm_of_the_papers() -> None:
     assert set(swarms_of("default")) == papers | set(DEFAULT_CONTROLS)
     assert set(swarms_of("full")) == papers | set(FULL_CONTROLS)
     assert set(QUICK_SWARMS) < set(ALGORITHMS)
-    assert {run.swarm for run in runs(size="quick", cases=["sr4c"])} == set(QUICK_SWARMS)
+    assert {run.swarm for run in runs({"sr4c": load("sr4c")}, size="quick")} == set(QUICK_SWARMS)
 
 
 # --- coordinates and bias -------------------------------------------------------------------------
@@ -76,12 +83,12 @@ def test_other_coordinates_show_the_same_values(seed: int) -> None:
     objective = Objective(load("sr4c"), stretch=True)
     lo, hi = search_box(objective.problem)
     x = lo + (hi - lo) * rng.random((5, 3))
-    for name in COORDINATES:
+    for name in Coordinates:
         f, low, high = seen_in(name, objective, lo, hi)
         np.testing.assert_allclose(high - low, hi - lo)
         u = {"printed": x, "mirrored": lo + hi - x, "offset": x - lo + low}[name]
         np.testing.assert_allclose(f(u), objective(x), rtol=1e-9)
-    assert (seen_in("offset", objective, lo, hi)[1] >= 9.9 * (hi - lo)).all()
+    assert (seen_in(Coordinates.offset, objective, lo, hi)[1] >= 9.9 * (hi - lo)).all()
 
 
 def test_the_functions_have_their_optimum_zero_at_zero() -> None:

@@ -1,0 +1,1 @@
+"""The results of a store as files that other programs read."""
