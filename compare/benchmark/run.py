@@ -141,7 +141,13 @@ def _ladder(case: str, problem: Problem, certify: bool) -> tuple[str, LadderReco
     return case, ladder_record(ladder(problem, certify=certify))
 
 
-def swarm(pool: Executor, runs: list[Run], problems: dict[str, Problem], store: Store) -> None:
+def swarm(
+    pool: Executor,
+    runs: list[Run],
+    problems: dict[str, Problem],
+    store: Store,
+    tell: Callable[[Graded], None] | None = None,
+) -> None:
     """Grade every run that the store does not have yet, and write ``rows.csv`` in the order of the runs.
 
     Stored rows count only if they belong to one of these runs and were made by the same code,
@@ -158,6 +164,8 @@ def swarm(pool: Executor, runs: list[Run], problems: dict[str, Problem], store: 
         By case.
     store : Store
         With the bounds of all cases.
+    tell : callable, optional
+        Called with each run as it ends, once it is stored.
     """
     ladders = store.ladders()
     bounds = {case: bound_of(ladders[case]) for case in problems}
@@ -171,6 +179,8 @@ def swarm(pool: Executor, runs: list[Run], problems: dict[str, Problem], store: 
         for graded in each(pool, f"swarms (x{_BATCH} runs)", _grades, calls):
             for one in graded:
                 store.add(one)
+                if tell is not None:
+                    tell(one)
     except KeyboardInterrupt:
         store.write_csv()
         raise

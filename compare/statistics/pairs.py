@@ -98,8 +98,8 @@ def compared(first: ArrayLike, second: ArrayLike, level: float = 0.95) -> Pair:
     """Compare two sets of runs on one instance.
 
     The test is exact where the sets are small: without ties by the distribution of the statistic, with
-    ties by counting all arrangements of the runs (of two runs each at least). Beyond, it is the normal approximation with the
-    corrections for ties and continuity.
+    ties by counting all arrangements of the runs (of two runs each at least). Beyond, it is the normal
+    approximation with the corrections for ties and continuity.
 
     Parameters
     ----------
