@@ -32,7 +32,7 @@ def runs(
     codings: Sequence[str] | None = None,
     tracks: Sequence[Track] = (Track.equal, Track.paper),
     coordinates: Sequence[Coordinates] = (Coordinates.printed,),
-    seeds: int | None = None,
+    seeds: int | Sequence[int] | None = None,
     evaluations: int | None = None,
     factor: int = 1,
     seconds: float | None = None,
@@ -51,8 +51,8 @@ def runs(
         The track ``paper`` differs from ``equal`` in the published coding alone, and has runs of that
         coding alone. It gives each joint the budget that ``equal`` gives the whole motion.
     coordinates : sequence of Coordinates
-    seeds : int, optional
-        Number of seeds.
+    seeds : int or sequence of int, optional
+        Number of seeds, or the seeds themselves.
     evaluations : int, optional
         Budget of each run, over the whole motion.
     factor : int
@@ -69,6 +69,8 @@ def runs(
     InputError
         If a budget is less than one evaluation for each joint that moves.
     """
+    number = SEEDS[size] if seeds is None else seeds
+    chosen = range(number) if isinstance(number, int) else number
     listed = []
     for case, problem in problems.items():
         budget = {"quick": QUICK_BUDGET, "default": DEFAULT_BUDGET}.get(
@@ -94,6 +96,6 @@ def runs(
             if track is not Track.paper or coding == "published"
             for seen in coordinates
             for swarm in (swarms if swarms is not None else swarms_of(size))
-            for seed in range(seeds if seeds is not None else SEEDS[size])
+            for seed in chosen
         ]
     return listed

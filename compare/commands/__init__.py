@@ -82,6 +82,16 @@ _ALL = (
         "timebound report report",
     ),
     Command(
+        "merge", "compare.commands.benchmark.merge:merge_folders", COMPARISON,
+        "Merge the results of folders into what one comparison would have given.",
+        "timebound merge seeds-0-9 seeds-10-19 --out both",
+    ),
+    Command(
+        "export", "compare.commands.benchmark.export:export", COMPARISON,
+        "Write rows and traces for polars, IOHanalyzer and COCO.",
+        "timebound export report --parquet --ioh",
+    ),
+    Command(
         "audit", "compare.commands.audit:audit_papers", PAPERS,
         "Judge published results: are limits kept, could they be that fast?",
         "timebound audit sr4c --json audit.json",

@@ -11,10 +11,22 @@ from compare.benchmark.known_times import key_of_paper
 from compare.benchmark.objective import CODINGS
 from compare.benchmark.plan import quick_cases, runs
 from compare.benchmark.protocol import RIVALS, Coordinates, Track, swarms_of
-from compare.benchmark.records.store import Settings, Store
+from compare.benchmark.records.settings import Settings, budget_words
+from compare.benchmark.records.store import Store
 from compare.benchmark.run import audits, climb, swarm, tabulate_known_times, warm_up, workers
 from compare.commands import DONE
-from compare.commands.options import CORES, Cases, Codings, Jobs, Out, SeenIn, Swarms, Tracks, positive
+from compare.commands.benchmark.seeds import SeedList
+from compare.commands.options import (
+    CORES,
+    Cases,
+    Codings,
+    Jobs,
+    Out,
+    SeenIn,
+    Swarms,
+    Tracks,
+    positive,
+)
 from compare.files import output_folder
 from compare.report.page import render
 from compare.studies import proofs, study
@@ -42,7 +54,7 @@ def compare_all(
     rivals: Annotated[bool, Parameter(help=f"Run these too: {', '.join(RIVALS)}.")] = False,
     apart: Annotated[float | None, Parameter(metavar="SECONDS", validator=positive)] = None,
     codings: Codings = None,
-    seeds: Annotated[int | None, Parameter(validator=positive)] = None,
+    seeds: SeedList = None,
     budget: Annotated[int | None, Parameter(validator=positive)] = None,
     budget_factor: Annotated[int, Parameter(validator=positive)] = 1,
     tracks: Tracks = (Track.equal, Track.paper),
@@ -63,7 +75,7 @@ def compare_all(
     apart
         Run every search in a process of its own, for at most so many seconds of the swarm's work.
     seeds
-        Number of seeds; 5 if left out.
+        Number of seeds, or which: 10-19, or 3,5,8; 5 if left out.
     budget
         Evaluations of a run over the whole motion, for all cases; 2550 if left out.
     budget_factor
@@ -102,7 +114,7 @@ def compare_all(
         size=size,
         cases=tuple(chosen),
         seeds=tuple(sorted({run.seed for run in planned})),
-        budget=_words(budgets),
+        budget=budget_words(budgets),
     )
     store.write_settings(settings)
 
@@ -123,10 +135,3 @@ def compare_all(
         page = render(pool, store.folder, problems, settings)
     print(f"report: {page} ({len(planned)} runs, {time.perf_counter() - started:.0f} s)")
     return DONE
-
-
-def _words(budgets: list[int]) -> str:
-    """Budgets in words; of many, the least and the greatest."""
-    if len(budgets) > 4:
-        return f"{budgets[0]} to {budgets[-1]} evaluations"
-    return " or ".join(str(budget) for budget in budgets) + " evaluations"

@@ -32,6 +32,16 @@ def find(name: str) -> Any:
     return library("mealpy").get_all_optimizers(verbose=False)[name]
 
 
+def names() -> list[str]:
+    """Return the names of all of them.
+
+    Returns
+    -------
+    list of str
+    """
+    return sorted(library("mealpy").get_all_optimizers(verbose=False))
+
+
 def mealpy(name: str, task: Task, *, population: int = 50) -> Moves:
     """Run an optimiser of mealpy with its own defaults for budget / population epochs.
 

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Collection, Iterable
+from collections.abc import Collection, Iterable, Iterator
 
 from compare.benchmark.records.rows import Row
 from formulations import InputError
@@ -44,12 +44,27 @@ def pooled(rows: Iterable[Row], *, allow: Collection[str] = ()) -> list[Row]:
         If a cell holds rows that differ in anything but their seeds, or two rows of one seed. The
         message names the cell, what differs, and two values of it.
     """
+    return list(require_pooled(rows, allow=allow))
+
+
+def require_pooled(rows: Iterable[Row], *, allow: Collection[str] = ()) -> Iterator[Row]:
+    """Pass rows on one by one, as ``pooled`` does; memory grows with cells and seeds alone.
+
+    Parameters
+    ----------
+    rows : iterable of Row
+    allow : collection of str
+        As for ``pooled``.
+
+    Yields
+    ------
+    Row
+    """
     if forbidden := set(allow) - {"machine"}:
         raise InputError(f"allow: {', '.join(sorted(forbidden))}: only machine can be allowed")
-    found = list(rows)
     first: dict[tuple[object, ...], Row] = {}
     seeds: set[tuple[object, ...]] = set()
-    for row in found:
+    for row in rows:
         cell = tuple(getattr(row, name) for name in CELL)
         other = first.setdefault(cell, row)
         for name, words in _WORDS.items():
@@ -63,4 +78,4 @@ def pooled(rows: Iterable[Row], *, allow: Collection[str] = ()) -> list[Row]:
                 f"{', '.join(map(str, cell))}: two rows of seed {row.seed} cannot be pooled"
             )
         seeds.add((*cell, row.seed))
-    return found
+        yield row

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from dataclasses import dataclass
 from itertools import pairwise
 from typing import Any
@@ -64,3 +65,20 @@ class Settings:
         if any(type(value) is not kind for kind, values in of_type for value in values):
             raise ValueError("not the settings of a comparison: unexpected entries")
         return Settings(size, cases, seeds, budget, allow)
+
+
+def budget_words(budgets: Sequence[int]) -> str:
+    """Return budgets in words; of many, the least and the greatest.
+
+    Parameters
+    ----------
+    budgets : sequence of int
+        In ascending order.
+
+    Returns
+    -------
+    str
+    """
+    if len(budgets) > 4:
+        return f"{budgets[0]} to {budgets[-1]} evaluations"
+    return " or ".join(str(budget) for budget in budgets) + " evaluations"

@@ -20,6 +20,7 @@ from compare.benchmark.known_times import KnownTime
 from compare.benchmark.ladders import LadderRecord, checked_ladder_record
 from compare.benchmark.records.database import documents, makers, runs
 from compare.benchmark.records.database.connection import Database
+from compare.benchmark.records.database.schema import MAKER_COLUMNS
 from compare.benchmark.records.exports.csv_ import write_rows
 from compare.benchmark.records.proof_cache import ProofKey
 from compare.benchmark.records.rows import BoundProof, Row, RunKey
@@ -43,19 +44,19 @@ class Store:
         self.folder = folder
         self.file = folder / "results.sqlite"
         self.rows_file = folder / "rows.csv"
-        self._database = Database(self.file)
+        self.database = Database(self.file)
         self._salt = secrets.token_hex(8)  # see `makers.maker_id`
         self._plan: int | None = None
 
     def close(self) -> None:
         """Close the file; the next use opens it again."""
-        self._database.close()
+        self.database.close()
 
     def clear(self) -> None:
         """Start afresh: nothing of an earlier comparison, but the bounds that were proved."""
         self._plan = None
         self.rows_file.unlink(missing_ok=True)
-        with self._database.writing() as connection:
+        with self.database.writing() as connection:
             for table in ("planned", "plans", "traces", "runs", "makers", "instances", "documents"):
                 connection.execute(f"DELETE FROM {table}")
 
@@ -71,7 +72,7 @@ class Store:
         problems : mapping of str to Problem
             By case.
         """
-        with self._database.writing() as connection:
+        with self.database.writing() as connection:
             self._plan = makers.write_plan(connection, planned, problems, self._salt)
 
     def left(self) -> list[int]:
@@ -121,10 +122,12 @@ class Store:
         ----------
         results : iterable of (Row, sequence of Trace)
         """
-        with self._database.writing() as connection:
+        with self.database.writing() as connection:
             for row, traces in results:
+                shared = {name: getattr(row, name) for name in MAKER_COLUMNS}
+                maker = makers.maker_id(connection, shared, self._salt)
                 try:
-                    runs.write_run(connection, row, traces, self._salt)
+                    runs.write_run(connection, maker, row, traces)
                 except ValueError as error:
                     raise InputError(f"{self.file}: {error}") from None
 
@@ -136,13 +139,8 @@ class Store:
         bounds : mapping of str to (float or None [s], BoundProof)
             By case.
         """
-        with self._database.writing() as connection:
-            plan = self._plan_of(connection)
-            wanted = {(case, bound, str(proof)) for case, (bound, proof) in bounds.items()}
-            stale = {case for case, *_ in runs.bounds_in_use(connection, plan) - wanted}
-            rows = (row for row in runs.read_rows(connection, plan) if row.case in stale & set(bounds))
-            again = [row.measured_against(*bounds[row.case]) for row in rows] if stale else []
-            runs.update_gaps(connection, again, self._salt)
+        with self.database.writing() as connection:
+            runs.measure(connection, self._plan_of(connection), bounds)
 
     def rows(self, *, every: bool = False) -> list[Row]:
         """Return the rows of the plan, in its order; traces are not read.
@@ -171,7 +169,7 @@ class Store:
         ------
         Row
         """
-        if self._database.exists():
+        if self.database.exists():
             with self._reading() as connection:
                 plan = None if every else self._plan_of(connection)
                 yield from runs.read_rows(connection, plan)
@@ -189,7 +187,7 @@ class Store:
         key : RunKey
         traces : list of Trace
         """
-        if self._database.exists():
+        if self.database.exists():
             with self._reading() as connection:
                 yield from runs.read_traces(connection, self._plan_of(connection), case)
 
@@ -202,6 +200,10 @@ class Store:
     def problems(self) -> dict[str, Problem]:
         """Return the problems of the plan by case, as they were when it was run."""
         return self._read(documents.problems_of_plan, {})
+
+    def problem_digests(self) -> dict[str, str]:
+        """Digests of the problems of the plan, by case."""
+        return self._read(documents.digests_of_plan, {})
 
     def write_settings(self, settings: Settings) -> None:
         """Keep what was asked for.
@@ -232,7 +234,7 @@ class Store:
         key : ProofKey, optional
             What they depend on; they are found again by it, in later comparisons too.
         """
-        with self._database.writing() as connection:
+        with self.database.writing() as connection:
             documents.write_document(connection, "ladder", case, ladder)
             if key is not None:
                 documents.write_proof(connection, key, ladder)
@@ -313,7 +315,7 @@ class Store:
     @contextmanager
     def _reading(self) -> Iterator[sqlite3.Connection]:
         """The connection; a value that does not fit becomes one line."""
-        with self._database.reading() as connection:
+        with self.database.reading() as connection:
             try:
                 yield connection
             except ValueError as error:
@@ -321,7 +323,7 @@ class Store:
 
     def _read(self, function: Callable[[sqlite3.Connection, int | None], T], nothing: T) -> T:
         """What a function of connection and plan reads; ``nothing`` if there is no file."""
-        if not self._database.exists():
+        if not self.database.exists():
             return nothing
         with self._reading() as connection:
             return function(connection, self._plan_of(connection))
@@ -334,5 +336,5 @@ class Store:
         return self._read(lambda connection, _: documents.documents(connection, kind), {})
 
     def _write(self, kind: str, name: str, data: Any) -> None:
-        with self._database.writing() as connection:
+        with self.database.writing() as connection:
             documents.write_document(connection, kind, name, data)

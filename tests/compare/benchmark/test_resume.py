@@ -2,24 +2,26 @@
 
 from __future__ import annotations
 
+import csv
+import sqlite3
 from collections.abc import Iterator
 from concurrent.futures import Executor, ThreadPoolExecutor
-from dataclasses import replace
 from pathlib import Path
 
 import pytest
 from graded_runs import without_times
 
-from compare.benchmark.grade import Run
+from compare.benchmark import run as run_module
+from compare.benchmark.grade import Graded, Run, grade
 from compare.benchmark.ladders import LadderRecord
 from compare.benchmark.plan import runs
-from compare.benchmark.records import provenance
+from compare.benchmark.records import proof_cache, provenance
+from compare.benchmark.records.database.schema import MAKER_COLUMNS
 from compare.benchmark.records.provenance import code_digest
-from compare.benchmark.records.rows import csv_text
 from compare.benchmark.records.store import Store
-from compare.benchmark.run import swarm
+from compare.benchmark.run import climb, swarm
 from compare.benchmark.statistics import summaries
-from formulations import load
+from formulations import Problem, load
 
 PROBLEMS = {"cobot": load("cobot")}
 
@@ -74,11 +76,14 @@ def test_another_budget_does_not_enter_the_medians(
     assert [without_times(row) for row in rows] == fresh(pool, tmp_path / "fresh", plan())
     told = [line for line in capsys.readouterr().err.splitlines() if line.startswith("resume:")]
     assert told == [
-        "resume: 0 of 4 stored rows fit the plan; 4 do not and are set aside in rows-set-aside.csv"
-        " (4 with another budget)"
+        "resume: 0 of 4 stored rows fit the plan; 4 do not and are left out (4 with another budget)"
     ]
-    assert [row.budget for row in store.set_aside()] == [600] * 4
-    assert set(store.traces()) == {row.key for row in rows}
+    assert [row.budget for row in store.rows(every=True)] == [600] * 4 + [60] * 4
+    assert {key for key, _ in store.traces()} == {row.key for row in rows}
+    capsys.readouterr()
+    swarm(pool, plan(evaluations=600), PROBLEMS, store)  # they are still there, and not run again
+    assert [row.budget for row in store.rows()] == [600] * 4
+    assert "4 of 8 stored rows fit the plan" in capsys.readouterr().err
 
 
 def test_fewer_seeds_and_swarms_leave_the_others_out(
@@ -115,14 +120,21 @@ def test_a_row_made_by_something_else_is_made_again(
 ) -> None:  # fmt: skip
     swarm(pool, plan(), PROBLEMS, store)
     before = store.rows()
-    changed = [replace(before[0], **{column: value}), *before[1:]]
-    store.rows_file.write_text(csv_text(changed))
+    store.close()
+    with sqlite3.connect(store.file) as other:
+        other.execute(
+            "INSERT INTO makers SELECT 99, 'another', "
+            + ", ".join(f'"{name}"' for name in MAKER_COLUMNS)
+            + " FROM makers"
+        )
+        other.execute("UPDATE runs SET maker = 99 WHERE seed = 0")
+        other.execute(f"UPDATE makers SET {column} = ? WHERE id = 99", (value,))
+    other.close()
     capsys.readouterr()
     swarm(pool, plan(), PROBLEMS, store)
     assert [without_times(row) for row in store.rows()] == [without_times(row) for row in before]
-    assert (
-        f"1 do not and are set aside in rows-set-aside.csv (1 with {words})" in capsys.readouterr().err
-    )
+    assert store.rows()[1:] == before[1:]  # the measured times too: these did not run again
+    assert f"1 do not and are left out (1 with {words})" in capsys.readouterr().err
 
 
 def test_rows_of_the_same_plan_are_kept_and_nothing_is_said(
@@ -134,7 +146,6 @@ def test_rows_of_the_same_plan_are_kept_and_nothing_is_said(
     swarm(pool, plan(), PROBLEMS, store)
     assert store.rows() == before  # the measured times too: nothing ran again
     assert "resume" not in capsys.readouterr().err
-    assert store.set_aside() == []
 
 
 def test_kept_rows_are_measured_against_the_bound_that_the_store_has_now(
@@ -148,13 +159,45 @@ def test_kept_rows_are_measured_against_the_bound_that_the_store_has_now(
         assert row.seconds is None or row.gap == row.seconds / 3.0 - 1.0
 
 
-def test_a_second_row_of_one_run_is_set_aside(pool: Executor, store: Store) -> None:
-    swarm(pool, plan(), PROBLEMS, store)
-    rows = store.rows()
-    store.rows_file.write_text(csv_text([*rows, replace(rows[0], seconds=1.0, gap=-0.7)]))
-    swarm(pool, plan(), PROBLEMS, store)
-    assert store.rows() == rows
-    assert [row.seconds for row in store.set_aside()] == [1.0]
+def test_an_interrupt_leaves_the_table_of_what_was_finished(
+    pool: Executor, store: Store, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    def interrupted(*args: object) -> Iterator[list[Graded]]:
+        yield [grade(run, PROBLEMS["cobot"], 3.3496) for run in plan()[1:3]]
+        raise KeyboardInterrupt
+
+    monkeypatch.setattr(run_module, "each", interrupted)
+    with pytest.raises(KeyboardInterrupt):
+        swarm(pool, plan(), PROBLEMS, store)
+    with store.rows_file.open(encoding="utf-8", newline="") as lines:
+        assert [line["seed"] for line in csv.DictReader(lines)] == ["1", "2"]
+    monkeypatch.undo()
+    swarm(pool, plan(), PROBLEMS, store)  # the rest; the table has the order of the plan
+    with store.rows_file.open(encoding="utf-8", newline="") as lines:
+        assert [line["seed"] for line in csv.DictReader(lines)] == ["0", "1", "2", "3"]
+
+
+def test_what_was_proved_once_is_not_proved_again(
+    pool: Executor, store: Store, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    climb(pool, PROBLEMS, store, certify=False)
+    proved = store.ladders()
+    store.clear()
+    monkeypatch.setattr(run_module, "ladder", None)  # nothing can be proved from now on
+    climb(pool, PROBLEMS, store, certify=False)
+    assert store.ladders() == proved
+    for change in ({"certify": True}, {"renamed": True}, {"code": "0" * 16}):
+        problems = PROBLEMS
+        if "renamed" in change:
+            problems = {"cobot": replace_name(PROBLEMS["cobot"])}
+        if "code" in change:
+            monkeypatch.setattr(proof_cache, "_prover_digest", lambda: "0" * 16)
+        with pytest.raises(TypeError):
+            climb(pool, problems, store, certify=bool(change.get("certify")))
+
+
+def replace_name(problem: Problem) -> Problem:
+    return Problem(problem.waypoints, problem.limits, name="another", family=problem.family)
 
 
 # --- the digest of the code -----------------------------------------------------------------------

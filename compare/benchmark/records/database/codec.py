@@ -41,6 +41,8 @@ def encoded(value: Any) -> Any:
         return np.array(value, dtype=_FLOATS).tobytes()
     if isinstance(value, float) and not math.isfinite(value):
         raise ValueError(f"{value!r} is not a finite number")
+    if isinstance(value, bool):
+        return int(value)
     return float(value) if isinstance(value, float) else value
 
 

@@ -104,5 +104,5 @@ def _prepare(connection: sqlite3.Connection) -> None:
                 raise
             time.sleep(0.01)
     connection.execute("PRAGMA synchronous = FULL")
+    bring_up_to_date(connection)  # replaces tables that others refer to
     connection.execute("PRAGMA foreign_keys = ON")
-    bring_up_to_date(connection)

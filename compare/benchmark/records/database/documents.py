@@ -66,6 +66,40 @@ def problems_of_plan(connection: sqlite3.Connection, plan: int | None) -> dict[s
     return {name: problem_of(json.loads(data)) for name, data in lines}
 
 
+def digests_of_plan(connection: sqlite3.Connection, plan: int | None) -> dict[str, str]:
+    """Return the digests of the problems that a plan runs on.
+
+    Parameters
+    ----------
+    connection : sqlite3.Connection
+    plan : int or None
+
+    Returns
+    -------
+    dict of str to str
+        By case.
+    """
+    lines = connection.execute(
+        'SELECT DISTINCT m."case", m.problem FROM makers m JOIN planned p ON p.maker = m.id WHERE p.plan = ?',
+        (plan,),
+    )
+    return dict(lines.fetchall())
+
+
+def copy_table(source: sqlite3.Connection, target: sqlite3.Connection, table: str) -> None:
+    """Copy the lines of a table that another store does not have.
+
+    Parameters
+    ----------
+    source, target : sqlite3.Connection
+        The target is in a transaction.
+    table : str
+    """
+    lines = source.execute(f"SELECT * FROM {table}")
+    marks = ", ".join("?" * len(lines.description))
+    target.executemany(f"INSERT OR IGNORE INTO {table} VALUES ({marks})", lines)
+
+
 def write_proof(connection: sqlite3.Connection, key: ProofKey, data: Any) -> None:
     """Store proved bounds, unless there are some of the same key.
 
@@ -81,24 +115,6 @@ def write_proof(connection: sqlite3.Connection, key: ProofKey, data: Any) -> Non
         "INSERT OR IGNORE INTO proofs (problem, versions, code, certified, data) VALUES (?, ?, ?, ?, ?)",
         (*key, json.dumps(data, allow_nan=False)),
     )
-
-
-def proofs(connection: sqlite3.Connection) -> dict[ProofKey, Any]:
-    """Return all proved bounds.
-
-    Parameters
-    ----------
-    connection : sqlite3.Connection
-
-    Returns
-    -------
-    dict of ProofKey to Any
-    """
-    lines = connection.execute("SELECT problem, versions, code, certified, data FROM proofs")
-    return {
-        ProofKey(problem, versions, code, bool(certified)): json.loads(data)
-        for problem, versions, code, certified, data in lines
-    }
 
 
 def proof(connection: sqlite3.Connection, key: ProofKey) -> Any:

@@ -79,6 +79,37 @@ def makers(connection: sqlite3.Connection) -> dict[int, dict[str, Any]]:
     return {line[0]: decoded(MAKER_COLUMNS, line[1:]) for line in lines}
 
 
+def digests(connection: sqlite3.Connection) -> dict[int, str]:
+    """Return the digest of every maker by its number.
+
+    Parameters
+    ----------
+    connection : sqlite3.Connection
+
+    Returns
+    -------
+    dict of int to str
+    """
+    return dict(connection.execute("SELECT id, digest FROM makers").fetchall())
+
+
+def entries_of(connection: sqlite3.Connection, plan: int | None) -> list[tuple[int, int]]:
+    """Return the runs of a plan in their order.
+
+    Parameters
+    ----------
+    connection : sqlite3.Connection
+    plan : int or None
+
+    Returns
+    -------
+    list of (int, int)
+        Number of the maker and seed.
+    """
+    lines = connection.execute("SELECT maker, seed FROM planned WHERE plan = ? ORDER BY place", (plan,))
+    return lines.fetchall()
+
+
 def write_plan(
     connection: sqlite3.Connection,
     runs: Sequence[Run],

@@ -1,16 +1,78 @@
-"""A store of an older version is brought up to date when it is opened: one step per version."""
+"""A store of an older version is brought up to date when it is opened: one step per version.
+
+A step is written once and never changed: it knows the columns of its own two versions, not those of today.
+"""
 
 from __future__ import annotations
 
+import hashlib
+import json
 import sqlite3
 from collections.abc import Callable
 
+from compare.benchmark.records.database.codec import unpacked
 from compare.benchmark.records.database.schema import APPLICATION, VERSION, tables
 
-Step = Callable[[sqlite3.Connection], None]
+_VIEW_2 = """
+CREATE VIEW rows AS SELECT m."case", m."family", m."coding", m."swarm", m."library", m."parameters",
+m."code", r."seed", r."status", r."claimed", r."keeps_limits", r."stretch", r."seconds", r."bound",
+r."proof", r."gap", r."claimed_gap", m."budget", m."population", m."track", m."coordinates",
+r."evaluations", r."durations", r."worst", r."note", m."isolated", m."time_limit",
+r."seconds_algorithm", r."seconds_objective", m."problem", m."versions", c."machine"
+FROM runs r JOIN makers m ON m.id = r.maker JOIN machines c ON c.id = r.machine
+"""
+_MAKERS_2 = """
+CREATE TABLE makers_2 (
+  id INTEGER PRIMARY KEY, digest TEXT NOT NULL UNIQUE,
+  "case" TEXT NOT NULL, "family" TEXT NOT NULL, "coding" TEXT NOT NULL, "swarm" TEXT NOT NULL,
+  "library" TEXT NOT NULL, "parameters" TEXT NOT NULL, "code" TEXT NOT NULL, "budget" INTEGER NOT NULL,
+  "population" INTEGER NOT NULL, "track" TEXT NOT NULL, "coordinates" TEXT NOT NULL,
+  "isolated" INTEGER NOT NULL, "time_limit" REAL, "problem" TEXT NOT NULL, "versions" TEXT NOT NULL
+) STRICT
+"""
+
+
+def _tracks_and_coordinates(connection: sqlite3.Connection) -> None:
+    """1 -> 2: track and coordinates; a budget counts the evaluations of the whole motion.
+
+    Version 1 gave each joint of the published coding the whole budget, as the papers do.
+    """
+    joints = {
+        maker: len(unpacked(data))
+        for maker, data in connection.execute(
+            "SELECT r.maker, t.data FROM runs r JOIN traces t ON t.run = r.id GROUP BY r.maker"
+        )
+    }
+    lines = connection.execute(
+        'SELECT id, digest, "case", family, coding, swarm, library, parameters, code, budget,'
+        " population, isolated, time_limit, problem, versions FROM makers"
+    ).fetchall()
+    connection.execute("DROP VIEW rows")
+    connection.execute(_MAKERS_2)
+    for number, old, *first, budget, population, isolated, time_limit, problem, versions in lines:
+        papers = first[2] == "published"
+        values = [
+            *first,
+            budget * joints.get(number, 1) if papers else budget,
+            population,
+            "paper" if papers else "equal",
+            "printed",
+            isolated,
+            time_limit,
+            problem,
+            versions,
+        ]
+        salt = "" if first[-1] else old  # code that cannot be read is the same as no other
+        digest = hashlib.sha256(json.dumps([*values, salt]).encode()).hexdigest()[:24]
+        marks = ", ".join("?" * (2 + len(values)))
+        connection.execute(f"INSERT INTO makers_2 VALUES ({marks})", (number, digest, *values))
+    connection.execute("DROP TABLE makers")
+    connection.execute("ALTER TABLE makers_2 RENAME TO makers")
+    connection.execute(_VIEW_2)
+
 
 # version -> what makes the next version of it
-STEPS: dict[int, Step] = {}
+STEPS: dict[int, Callable[[sqlite3.Connection], None]] = {1: _tracks_and_coordinates}
 
 
 def bring_up_to_date(connection: sqlite3.Connection) -> None:
@@ -19,7 +81,7 @@ def bring_up_to_date(connection: sqlite3.Connection) -> None:
     Parameters
     ----------
     connection : sqlite3.Connection
-        Without a transaction.
+        Without a transaction, and without checks of foreign keys.
 
     Raises
     ------

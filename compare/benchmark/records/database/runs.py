@@ -4,14 +4,14 @@ from __future__ import annotations
 
 import sqlite3
 import zlib
-from collections.abc import Iterable, Iterator, Sequence
+from collections.abc import Iterator, Mapping, Sequence
 from typing import Any
 
 from compare.benchmark.grade import Trace
 from compare.benchmark.records.database.codec import decoder, encoded, packed, unpacked
-from compare.benchmark.records.database.makers import maker_id, makers
-from compare.benchmark.records.database.schema import MAKER_COLUMNS, RUN_COLUMNS
-from compare.benchmark.records.rows import TIMING_COLUMNS, Row, RowStatus, RunKey
+from compare.benchmark.records.database.makers import makers
+from compare.benchmark.records.database.schema import RUN_COLUMNS
+from compare.benchmark.records.rows import TIMING_COLUMNS, BoundProof, Row, RowStatus, RunKey
 
 # what may differ between two results of one run: measured times, what depends on the bounds known at the
 # time, and the reason in words, in which a foreign program may print an address
@@ -26,29 +26,23 @@ _INSERT = (
 _R_NAMES = ", ".join(f'r."{name}"' for name in RUN_COLUMNS)
 
 
-def write_run(connection: sqlite3.Connection, row: Row, traces: Sequence[Trace], salt: str) -> int:
+def write_run(connection: sqlite3.Connection, maker: int, row: Row, traces: Sequence[Trace]) -> None:
     """Store a run, its row and its traces; the same result a second time is passed over.
 
     Parameters
     ----------
     connection : sqlite3.Connection
         In a transaction.
+    maker : int
+        The number of its maker.
     row : Row
     traces : sequence of Trace
-    salt : str
-        Of this session.
-
-    Returns
-    -------
-    int
-        The number of its maker.
 
     Raises
     ------
     ValueError
         If the store holds another result of the same run by the same code.
     """
-    maker = maker_id(connection, {name: getattr(row, name) for name in MAKER_COLUMNS}, salt)
     connection.execute("INSERT OR IGNORE INTO machines (machine) VALUES (?)", (row.machine,))
     (machine,) = connection.execute(
         "SELECT id FROM machines WHERE machine = ?", (row.machine,)
@@ -60,7 +54,6 @@ def write_run(connection: sqlite3.Connection, row: Row, traces: Sequence[Trace],
         connection.execute("INSERT INTO traces (run, data) VALUES (?, ?)", (written.lastrowid, data))
     else:
         _require_equal(connection, maker, row, dict(zip(RUN_COLUMNS, values, strict=True)), data)
-    return maker
 
 
 def _require_equal(
@@ -86,46 +79,36 @@ def _require_equal(
         )
 
 
-def bounds_in_use(
-    connection: sqlite3.Connection, plan: int | None
-) -> set[tuple[str, float | None, str]]:
-    """Return what gaps of stored rows are measured against.
-
-    Parameters
-    ----------
-    connection : sqlite3.Connection
-    plan : int or None
-        As in ``read_rows``.
-
-    Returns
-    -------
-    set of (case, bound, proof)
-    """
-    join = "JOIN makers m ON m.id = r.maker"
-    lines = connection.execute(
-        f'SELECT DISTINCT m."case", r.bound, r.proof {_selected(plan, join, ordered=False)}',
-        _arguments(plan),
-    )
-    return set(lines.fetchall())
-
-
-def update_gaps(connection: sqlite3.Connection, rows: Iterable[Row], salt: str) -> None:
-    """Store what the gaps of stored rows are measured against now.
+def measure(
+    connection: sqlite3.Connection,
+    plan: int | None,
+    bounds: Mapping[str, tuple[float | None, BoundProof]],
+) -> None:
+    """Measure the gaps of rows against these times, where they are measured against others.
 
     Parameters
     ----------
     connection : sqlite3.Connection
         In a transaction.
-    rows : iterable of Row
-    salt : str
-        Of this session.
+    plan : int or None
+        As in ``read_rows``.
+    bounds : mapping of str to (float or None [s], BoundProof)
+        By case.
     """
-    for row in rows:
-        maker = maker_id(connection, {name: getattr(row, name) for name in MAKER_COLUMNS}, salt)
+    in_use = connection.execute(
+        'SELECT DISTINCT m."case", r.bound, r.proof'
+        f" {_selected(plan, 'JOIN makers m ON m.id = r.maker', ordered=False)}",
+        _arguments(plan),
+    )
+    stale = {case for case, *used in in_use if case in bounds and tuple(used) != bounds[case]}
+    if not stale:
+        return
+    for maker, row in [one for one in numbered_rows(connection, plan) if one[1].case in stale]:
+        again = row.measured_against(*bounds[row.case])
         connection.execute(
             f"UPDATE runs SET {', '.join(f'{name} = ?' for name in _MEASURED)}"
             " WHERE maker = ? AND seed = ?",
-            (*(encoded(getattr(row, name)) for name in _MEASURED), maker, row.seed),
+            (*(encoded(getattr(again, name)) for name in _MEASURED), maker, row.seed),
         )
 
 
@@ -138,14 +121,31 @@ def read_rows(connection: sqlite3.Connection, plan: int | None) -> Iterator[Row]
     plan : int or None
         Only what this plan asks for, in its order; None: every row, in the order of writing.
 
-    Yields
-    ------
-    Row
+    Returns
+    -------
+    iterator of Row
 
     Raises
     ------
     ValueError
         If a value does not fit its column.
+    """
+    return (row for _, row in numbered_rows(connection, plan))
+
+
+def numbered_rows(connection: sqlite3.Connection, plan: int | None) -> Iterator[tuple[int, Row]]:
+    """Read the same rows with the numbers of their makers.
+
+    Parameters
+    ----------
+    connection : sqlite3.Connection
+    plan : int or None
+        As in ``read_rows``.
+
+    Yields
+    ------
+    maker : int
+    row : Row
     """
     shared = makers(connection)
     machines = dict(connection.execute("SELECT id, machine FROM machines"))
@@ -160,7 +160,7 @@ def read_rows(connection: sqlite3.Connection, plan: int | None) -> Iterator[Row]
             except ValueError as error:
                 key = _key(shared[maker], seed)
                 raise ValueError(f"{', '.join(map(str, key))}: {name}: {error}") from None
-        yield Row(**shared[maker], **found, seed=seed, machine=machines[machine])
+        yield maker, Row(**shared[maker], **found, seed=seed, machine=machines[machine])
 
 
 def read_traces(

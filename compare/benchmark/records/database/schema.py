@@ -21,7 +21,7 @@ from typing import Any, get_type_hints
 
 from compare.benchmark.records.rows import COLUMNS, Row
 
-VERSION = 1
+VERSION = 2
 APPLICATION = 0x74696D65  # "time": tells the file from other SQLite files
 
 _SHARED = (
