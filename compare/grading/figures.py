@@ -119,7 +119,7 @@ def ranks_figure(found: Grading) -> Figure:
     pairs = pd.DataFrame(order.ranks.pairs, index=names, columns=names)
     needed("scikit_posthocs").critical_difference_diagram(
         mean, pairs, ax=axes, color_palette=dict.fromkeys(names, BLACK),
-        crossbar_props={"color": BLUE, "lw": 3.0}, label_props={"fontsize": 9},
+        crossbar_props={"color": BLUE, "linewidth": 3.0}, label_props={"fontsize": 9},
     )  # fmt: skip
     axes.set_title(
         f"Mean rank over the instances [1], 1 is best; critical difference {order.ranks.difference:.2f}",

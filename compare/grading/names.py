@@ -8,7 +8,7 @@ import sys
 from difflib import get_close_matches
 from pathlib import Path
 
-from metaheuristics import UnknownAlgorithmError, algorithm
+from metaheuristics import ALGORITHMS, NOT_REPRODUCIBLE, UnknownAlgorithmError, algorithm
 
 
 def swarm_name(typed: str) -> str:
@@ -37,7 +37,11 @@ def swarm_name(typed: str) -> str:
         name = _of_file(typed, path, attribute)
     else:
         name = typed
-    algorithm(name)
+    try:
+        algorithm(name)
+    except UnknownAlgorithmError as error:
+        hint = "" if ":" in name or name in NOT_REPRODUCIBLE else _near(name, list(ALGORITHMS))
+        raise UnknownAlgorithmError(f"{error}{hint}") from None
     return name
 
 
@@ -47,8 +51,8 @@ def _of_file(typed: str, path: Path, attribute: str) -> str:
         folder = path.parent
         beside = sorted(p.name for p in folder.glob("*.py")) if folder.is_dir() else []
         raise UnknownAlgorithmError(f"{typed}: there is no file {path}{_near(path.name, beside)}")
-    defined = _defined(typed, path)
-    if attribute.partition(".")[0] not in defined:
+    defined, others = _names_in(typed, path)
+    if attribute.partition(".")[0] not in (*defined, *others):
         missing = (
             f"{path} defines no {attribute!r}" if attribute else "a name is missing after the file"
         )
@@ -65,8 +69,8 @@ def _of_file(typed: str, path: Path, attribute: str) -> str:
     return f"{module}:{attribute}"
 
 
-def _defined(typed: str, path: Path) -> list[str]:
-    """Functions and classes of a file, read and not run."""
+def _names_in(typed: str, path: Path) -> tuple[list[str], list[str]]:
+    """Functions and classes that a file defines, and other names in it; the file is read and not run."""
     try:
         tree = ast.parse(path.read_bytes())
     except (SyntaxError, ValueError) as error:
@@ -74,15 +78,16 @@ def _defined(typed: str, path: Path) -> list[str]:
         raise UnknownAlgorithmError(
             f"{typed}: {path} is no Python file{line}: {error.args[0]}"
         ) from None
-    names: list[str] = []
+    defined: list[str] = []
+    others: list[str] = []
     for node in tree.body:
         if isinstance(node, ast.FunctionDef | ast.ClassDef):
-            names.append(node.name)
+            defined.append(node.name)
         elif isinstance(node, ast.ImportFrom | ast.Import):
-            names += [(alias.asname or alias.name).partition(".")[0] for alias in node.names]
+            others += [(alias.asname or alias.name).partition(".")[0] for alias in node.names]
         elif isinstance(node, ast.Assign):
-            names += [target.id for target in node.targets if isinstance(target, ast.Name)]
-    return [name for name in dict.fromkeys(names) if not name.startswith("_")]
+            others += [target.id for target in node.targets if isinstance(target, ast.Name)]
+    return [name for name in defined if not name.startswith("_")], others
 
 
 def _near(name: str, names: list[str]) -> str:

@@ -91,7 +91,8 @@ def as_text(found: Grading) -> str:
         parts.append(found.zero.sentence)
     parts += [reason.sentence for reason in telling(found.reasons)]
     parts += [
-        f"{f.count} runs of {f.swarm} failed: {f.status}, first on {f.first}" + (f": {f.note}" * bool(f.note))
+        f"{f.count} runs of {f.swarm} failed: {f.status}, first on {f.first}"
+        + (f": {f.note}" * bool(f.note))
         for f in found.failures
     ]
     return "\n".join(parts)

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Mapping
 from concurrent.futures import Executor
+from dataclasses import dataclass
 
 from compare.benchmark.ladders import LadderRecord, ladder_record
 from compare.benchmark.records.proof_cache import proof_key
@@ -13,8 +14,49 @@ from compare.benchmark.statistics import bound_of
 from compare.grading.failures import Console
 from compare.grading.grading import Grading, graded
 from compare.grading.protocol import Protocol
-from compare.grading.reasons import Features
-from formulations import InputError, Problem, ladder
+from compare.grading.reasons import Features, features_of
+from formulations import CASES, InputError, Problem, ladder, load
+
+
+@dataclass(frozen=True)
+class Chosen:
+    """The instances of a grading: problems and features by name, and what they are called."""
+
+    problems: dict[str, Problem]
+    features: dict[str, Features]
+    kind: str
+
+
+def chosen_instances(names: str | None) -> Chosen:
+    """Return the instances that a swarm is graded on.
+
+    Parameters
+    ----------
+    names : str or None
+        Names of shipped cases, or problem files, with commas between them; None: the held-out instances.
+
+    Returns
+    -------
+    Chosen
+
+    Raises
+    ------
+    InputError
+        There is none of a name.
+    """
+    kind = "held-out instances" if names is None else "instances"
+    listed = (
+        list(CASES) if names is None else [name.strip() for name in names.split(",") if name.strip()]
+    )
+    if not listed:
+        raise InputError("--cases: none given")
+    problems: dict[str, Problem] = {}
+    for name in listed:
+        problem = load(name)
+        if problem.name in problems:
+            raise InputError(f"--cases: two instances are called {problem.name}")
+        problems[problem.name] = problem
+    return Chosen(problems, {name: features_of(one) for name, one in problems.items()}, kind)
 
 
 def run_and_grade(

@@ -128,7 +128,9 @@ def standing(
     instances = list(by_swarm[swarms[0]])
     named = {(case, s): cell.rows for s, mine in by_swarm.items() for case, cell in mine.items()}
     complete(named, instances, swarms, len(by_swarm[swarms[0]][instances[0]]))
-    medians = np.array([[middle(by_swarm[s][case].losses.tolist()) for s in swarms] for case in instances])
+    medians = np.array(
+        [[middle(by_swarm[s][case].losses.tolist()) for s in swarms] for case in instances]
+    )
     found = ranks(medians)
     together = dict(
         zip(contests, holm([one.effect.p for one in contests.values()]).tolist(), strict=True)
