@@ -73,9 +73,11 @@ def runs(
     chosen = range(number) if isinstance(number, int) else number
     listed = []
     for case, problem in problems.items():
-        budget = {"quick": QUICK_BUDGET, "default": DEFAULT_BUDGET}.get(
-            size, PAPER_BUDGETS.get(case, DEFAULT_BUDGET)
-        )
+        budget = DEFAULT_BUDGET
+        if size == "quick":
+            budget = QUICK_BUDGET
+        elif size == "full":
+            budget = PAPER_BUDGETS.get(case, DEFAULT_BUDGET)
         total = (evaluations or budget.evaluations) * factor
         joints = len(problem.moving_joints)
         shares(total, joints)  # refused here, before anything is computed

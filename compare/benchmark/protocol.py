@@ -69,6 +69,7 @@ PAPER_BUDGETS: dict[str, Budget] = {
     "cobot": Budget(20, 200),
     "z1": Budget(30, 500),
 }
+# that of Wang 2025, the least of them: all instances of a suite have it, so that its targets compare
 DEFAULT_BUDGET = Budget(50, 50)
 QUICK_BUDGET = Budget(20, 20)
 BUDGET_FACTORS = (1, 10, 100)

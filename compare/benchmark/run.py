@@ -17,6 +17,7 @@ import numpy as np
 
 from compare.audit import audit, load_papers
 from compare.audit.paper import published_text
+from compare.benchmark.below_bound import require_above
 from compare.benchmark.grade import Graded, Run, grade
 from compare.benchmark.known_times import KnownTime, table_of_known_times
 from compare.benchmark.ladders import LadderRecord, ladder_record
@@ -31,6 +32,8 @@ from compare.screen import bar
 from formulations import FAMILIES, Problem, ladder
 
 T = TypeVar("T")
+
+
 _THREADS = ("OMP_NUM_THREADS", "OPENBLAS_NUM_THREADS", "MKL_NUM_THREADS")
 _BATCH = 5  # runs per call: a run takes milliseconds
 _WAITING = 64  # calls handed to the workers at a time, enough to keep all of them busy
@@ -178,6 +181,7 @@ def swarm(
     try:
         for graded in each(pool, f"swarms (x{_BATCH} runs)", _grades, calls):
             for one in graded:
+                require_above(one.row, ladders[one.run.case])
                 store.add(one)
                 if tell is not None:
                     tell(one)
@@ -185,6 +189,27 @@ def swarm(
         store.write_csv()
         raise
     store.write_csv()
+
+
+def measured(pool: Executor, runs: list[Run], problems: dict[str, Problem], store: Store) -> list[Row]:
+    """Make runs without keeping them, for an estimate of the time.
+
+    Parameters
+    ----------
+    pool : Executor
+    runs : list of Run
+    problems : dict of str to Problem
+        By case.
+    store : Store
+        With the bounds of all cases.
+
+    Returns
+    -------
+    list of Row
+    """
+    ladders = store.ladders()
+    calls = [([(run, problems[run.case], *bound_of(ladders[run.case]))],) for run in runs]
+    return [one.row for graded in each(pool, "estimate", _grades, calls) for one in graded]
 
 
 def _grades(batch: list[tuple[Run, Problem, float | None, BoundProof]]) -> list[Graded]:

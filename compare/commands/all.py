@@ -2,23 +2,31 @@
 
 from __future__ import annotations
 
+import sys
 import time
+from collections.abc import Sequence
+from concurrent.futures import Executor, ProcessPoolExecutor
 from typing import Annotated
 
 from cyclopts import Parameter
 
+from compare.benchmark.below_bound import BelowBoundError
+from compare.benchmark.estimate import estimate, part
+from compare.benchmark.grade import Run
 from compare.benchmark.known_times import key_of_paper
 from compare.benchmark.objective import CODINGS
 from compare.benchmark.plan import quick_cases, runs
-from compare.benchmark.protocol import RIVALS, Coordinates, Track, swarms_of
+from compare.benchmark.protocol import RIVALS, SEEDS, Coordinates, Track, swarms_of
+from compare.benchmark.proving import prove_all
 from compare.benchmark.records.settings import Settings, budget_words
 from compare.benchmark.records.store import Store
-from compare.benchmark.run import audits, climb, swarm, tabulate_known_times, warm_up, workers
-from compare.commands import DONE
+from compare.benchmark.run import audits, climb, measured, swarm, tabulate_known_times, warm_up, workers
+from compare.benchmark.suite import SIZE, Instance, chosen, suite
+from compare.commands import DONE, FAILED
 from compare.commands.benchmark.seeds import SeedList
 from compare.commands.options import (
     CORES,
-    Cases,
+    CasesOrFiles,
     Codings,
     Jobs,
     Out,
@@ -29,10 +37,11 @@ from compare.commands.options import (
 )
 from compare.files import output_folder
 from compare.report.page import render
+from compare.report.suite_page import render_suite
 from compare.studies import proofs, study
 from compare.studies.drawn_to_zero import bias
 from compare.studies.drawn_to_zero.centred_functions import FUNCTIONS
-from formulations import CASES, InputError, load
+from formulations import CASES, InputError
 
 # random 3-5-3 problems, most segments, problems per size: what a proof costs, in the report
 PROOFS = {"default": (40, 5, 1), "full": (1000, 8, 2)}
@@ -47,18 +56,20 @@ def compare_all(
     *,
     quick: bool = False,
     full: bool = False,
+    suite_: Annotated[bool, Parameter(name="--suite")] = False,
+    instances: Annotated[int | None, Parameter(metavar="N", validator=positive)] = None,
     out: Out = "report",
     jobs: Jobs = CORES,
-    cases: Cases = None,
+    cases: CasesOrFiles = None,
     swarms: Swarms = None,
     rivals: Annotated[bool, Parameter(help=f"Run these too: {', '.join(RIVALS)}.")] = False,
     apart: Annotated[float | None, Parameter(metavar="SECONDS", validator=positive)] = None,
     codings: Codings = None,
+    tracks: Tracks = None,
+    coordinates: SeenIn = (Coordinates.printed,),
     seeds: SeedList = None,
     budget: Annotated[int | None, Parameter(validator=positive)] = None,
     budget_factor: Annotated[int, Parameter(validator=positive)] = 1,
-    tracks: Tracks = (Track.equal, Track.paper),
-    coordinates: SeenIn = (Coordinates.printed,),
     resume: bool = False,
 ) -> int:
     """Grade every swarm on every case, audit the papers, and write the report.
@@ -72,6 +83,10 @@ def compare_all(
         2 seeds, 420 evaluations, few swarms; no proofs, no audits, no B-spline.
     full
         31 seeds, the papers' own budgets, more control algorithms.
+    suite_
+        Grade on the benchmark's 60 instances instead; with --full by 31 seeds.
+    instances
+        The same on the first N instances of an endless list; the first 60 are the suite.
     apart
         Run every search in a process of its own, for at most so many seconds of the swarm's work.
     seeds
@@ -81,27 +96,29 @@ def compare_all(
     budget_factor
         Multiply every budget by 10, say, or 100.
     resume
-        Keep the rows that an interrupted run has finished.
+        Keep the proofs and rows that an interrupted run has finished.
     """
     started = time.perf_counter()
-    if quick and full:
-        raise InputError("--quick, --full: only one of them can be given")
-    size = "quick" if quick else "full" if full else "default"
-    chosen = list(cases or (quick_cases() if quick else CASES))
+    on_suite = suite_ or instances is not None
+    _require_one(**{"--quick": quick, "--full": full})
+    _require_one(**{"--quick": quick, "--suite": on_suite, "--cases": cases is not None and on_suite})
+    size = "quick" if quick else "suite" if on_suite else "full" if full else "default"
+    named = cases or (quick_cases() if quick else CASES)
+    graded_on = suite(instances or SIZE) if on_suite else chosen(named)
     wanted = list(swarms or swarms_of(size))
     if rivals:
         from compare.commands.options import found_swarms
 
         wanted = list(found_swarms(",".join([*wanted, *RIVALS])))
-    problems = {case: load(case) for case in chosen}
+    problems = {one.name: one.problem for one in graded_on}
     planned = runs(
         problems,
         size=size,
         swarms=wanted,
         codings=list(codings or CODINGS),
-        tracks=tracks,
+        tracks=tracks or ((Track.equal,) if on_suite else (Track.equal, Track.paper)),
         coordinates=coordinates,
-        seeds=seeds,
+        seeds=seeds or SEEDS["full" if full else size],
         evaluations=budget,
         factor=budget_factor,
         seconds=apart,
@@ -109,29 +126,77 @@ def compare_all(
     store = Store(output_folder(out))
     if not resume:
         store.clear()
-    budgets = sorted({run.budget for run in planned})
     settings = Settings(
         size=size,
-        cases=tuple(chosen),
+        cases=tuple(problems),
         seeds=tuple(sorted({run.seed for run in planned})),
-        budget=budget_words(budgets),
+        budget=budget_words(sorted({run.budget for run in planned})),
     )
     store.write_settings(settings)
 
     warm_up(problems)
-    with workers(jobs) as pool:
-        climb(pool, problems, store, certify=not quick)
-        if not quick:
-            audits(pool, sorted({paper for case in chosen if (paper := key_of_paper(case))}), store)
-        swarm(pool, planned, problems, store)
-        tabulate_known_times(pool, problems, store)
-        if size in PROOFS and cases is None:
-            calls = proofs.calls(*PROOFS[size])
-            study.run(proofs.STUDY, calls, folder=store.folder, pool=pool, resume=resume)
-        if size in BIAS and cases is None:
-            functions, arms, repeats, evaluations = BIAS[size]
-            calls = bias.calls(functions, arms, wanted, repeats, evaluations)
-            study.run(bias.STUDY, calls, folder=store.folder, pool=pool, resume=resume)
-        page = render(pool, store.folder, problems, settings)
+    try:
+        with workers(jobs) as pool:
+            if on_suite:
+                prove_all(pool, graded_on, store)
+            else:
+                _bounds(pool, graded_on, store, quick=quick)
+            if full:
+                _announce(pool, planned, store, graded_on, jobs)
+            swarm(pool, planned, problems, store)
+            if on_suite:
+                page = render_suite(store, graded_on, settings)
+            else:
+                tabulate_known_times(pool, problems, store)
+                if cases is None:
+                    _studies(pool, size, wanted, store, resume=resume)
+                page = render(pool, store.folder, problems, settings)
+    except BelowBoundError as error:
+        print(f"error: {error}", file=sys.stderr)
+        return FAILED
     print(f"report: {page} ({len(planned)} runs, {time.perf_counter() - started:.0f} s)")
     return DONE
+
+
+def _require_one(**given: bool) -> None:
+    """Refuse options that exclude each other."""
+    if sum(given.values()) > 1:
+        raise InputError(f"{', '.join(given)}: only one of them can be given")
+
+
+def _bounds(pool: Executor, instances: Sequence[Instance], store: Store, *, quick: bool) -> None:
+    """Every bound of every case, and the audits of their papers."""
+    for one in instances:
+        store.write_instance(one.name, one.to_json())
+    climb(pool, {one.name: one.problem for one in instances}, store, certify=not quick)
+    if not quick:
+        papers = {paper for one in instances if (paper := key_of_paper(one.name))}
+        audits(pool, sorted(papers), store)
+
+
+def _studies(
+    pool: ProcessPoolExecutor, size: str, swarms: list[str], store: Store, *, resume: bool
+) -> None:
+    """The studies beside the main comparison."""
+    if size in PROOFS:
+        calls = proofs.calls(*PROOFS[size])
+        study.run(proofs.STUDY, calls, folder=store.folder, pool=pool, resume=resume)
+    if size in BIAS:
+        functions, arms, repeats, evaluations = BIAS[size]
+        calls = bias.calls(functions, arms, swarms, repeats, evaluations)
+        study.run(bias.STUDY, calls, folder=store.folder, pool=pool, resume=resume)
+
+
+def _announce(
+    pool: Executor, planned: list[Run], store: Store, instances: Sequence[Instance], jobs: int
+) -> None:
+    """Say how long the runs will take, before they begin."""
+    problems = {one.name: one.problem for one in instances}
+    rows = measured(pool, part(planned), problems, store)
+    hours = estimate(rows, planned, jobs) / 3600.0
+    print(
+        f"estimate: {len(planned)} runs take about {hours:.2g} hours with {jobs} workers"
+        f" (from {len(rows)} of them)",
+        file=sys.stderr,
+        flush=True,
+    )

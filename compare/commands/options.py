@@ -256,14 +256,34 @@ _OWN = (
     " module:function"
 )
 
+
+def _read_cases(kind: Any, tokens: Sequence[Token]) -> tuple[str, ...]:
+    from formulations import CASES
+
+    wanted = [name.strip() for name in tokens[0].value.split(",") if name.strip()]
+    if not wanted:
+        raise ValueError(f"none given (known: {', '.join(CASES)})")
+    return tuple(
+        dict.fromkeys(
+            name if name.endswith(".toml") or Path(name).is_file() else known(name, CASES)
+            for name in wanted
+        )
+    )
+
+
 Cases = Annotated[tuple[str, ...] | None, listed(_cases, "Shipped cases; all if left out.", "--cases")]
+CasesOrFiles = Annotated[
+    tuple[str, ...] | None,
+    Parameter(name="--cases", help="Shipped cases, and problem files of your own (mine.toml); all cases if left"
+              " out.", converter=_read_cases, n_tokens=1, metavar="NAME,..", show_default=_joined),
+]  # fmt: skip
 Codings = Annotated[
     tuple[str, ...] | None,
     listed(_codings, "How a swarm's vector becomes a motion: published, shared, stretched; all if left out.",
            "--codings"),
 ]  # fmt: skip
 Tracks = Annotated[
-    tuple[Any, ...],
+    tuple[Any, ...] | None,
     _words_of("Track", "--tracks", "Rules: equal (the joints of the published coding share the budget),"
               " paper (the papers' own: each of them has all of it)."),
 ]  # fmt: skip

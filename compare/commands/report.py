@@ -9,9 +9,12 @@ from cyclopts import Parameter
 
 from compare.benchmark.records.store import Store
 from compare.benchmark.run import workers
+from compare.benchmark.suite import Instance
 from compare.commands import DONE
 from compare.commands.options import Jobs
 from compare.report.page import render
+from compare.report.suite_page import render_suite
+from formulations import InputError
 
 
 def report(folder: Annotated[str, Parameter(name="DIR")], /, *, jobs: Jobs = 2) -> int:
@@ -24,7 +27,17 @@ def report(folder: Annotated[str, Parameter(name="DIR")], /, *, jobs: Jobs = 2) 
     """
     store = Store(Path(folder))
     settings = store.settings()
-    with workers(jobs) as pool:
-        page = render(pool, store.folder, store.problems(), settings)
+    stored = store.instances()
+    instances = [Instance.from_json(stored[case]) for case in settings.cases if case in stored]
+    if len(instances) < len(settings.cases):
+        raise InputError(
+            f"{folder}: the problems of {len(settings.cases) - len(instances)} cases are missing"
+        )
+    if settings.size == "suite":
+        page = render_suite(store, instances, settings)
+    else:
+        problems = {one.name: one.problem for one in instances}
+        with workers(jobs) as pool:
+            page = render(pool, store.folder, problems, settings)
     print(f"report: {page}")
     return DONE

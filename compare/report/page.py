@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import base64
 import json
+from collections.abc import Iterable
 from concurrent.futures import Executor
 from dataclasses import dataclass
 from pathlib import Path
@@ -191,11 +192,7 @@ def _context(
     """What the templates say of the swarms."""
     found = summaries(rows, allow=settings.allow)
     cases = [case for case in problems if case in ladders]
-    ran = {row.swarm: row for row in rows}
-    order = [name for name in ALGORITHMS if name in ran] + [
-        name for name in ran if name not in ALGORITHMS
-    ]
-    swarms = {name: _Swarm.of(ran[name]) for name in order}
+    swarms = swarms_in(rows)
     contradicted = [row for row in rows if row.status is RowStatus.contradicted]
     return {
         "cases": cases,
@@ -214,7 +211,7 @@ def _context(
         "bounds": {case: bound_of(ladders[case]) for case in cases},
         "headlines": [_headline(case, ladders[case], rows, found) for case in cases],
         "rows": len(rows),
-        "faults": _faults(rows),
+        "faults": faults_of(rows),
         "contradicted": contradicted,
         "settings": settings,
         "machine": rows[0].machine if rows else "",
@@ -256,6 +253,24 @@ class _Swarm:
         return _Swarm(title, place, _parameters(row), library, apart)
 
 
+def swarms_in(rows: Iterable[Row]) -> dict[str, _Swarm]:
+    """Describe the swarms of rows.
+
+    Parameters
+    ----------
+    rows : iterable of Row
+
+    Returns
+    -------
+    dict of str to object
+        By name, in the order of tables; each has a title, a source, parameters and a group.
+    """
+    ran = {row.swarm: row for row in rows}
+    order = [name for name in ALGORITHMS if name in ran]
+    order += [name for name in ran if name not in ALGORITHMS]
+    return {name: _Swarm.of(ran[name]) for name in order}
+
+
 def _parameters(row: Row) -> dict[str, Any]:
     """Parameters that a row states; none if they are not what `grade` writes."""
     try:
@@ -285,8 +300,18 @@ def _headline(
     }
 
 
-def _faults(rows: list[Row]) -> list[tuple[str, int, str]]:
-    """Every status but ok, and how often it stands; with one of its reasons."""
+def faults_of(rows: Iterable[Row]) -> list[tuple[str, int, str]]:
+    """Count every status but ok.
+
+    Parameters
+    ----------
+    rows : iterable of Row
+
+    Returns
+    -------
+    list of (str, int, str)
+        Status, how often it stands, and one of its reasons.
+    """
     found: dict[RowStatus, list[Row]] = {}
     for row in rows:
         if row.status is not RowStatus.ok:

@@ -28,7 +28,7 @@ from formulations.problem.arrays import Array, Truths
 _ROUNDING = 1e-12  # relative; the sum of the durations on another machine
 _SAME = 1e-8  # relative; stretch of the claimed motion, from the verified one
 # no motion that the check lets pass is faster than a certified bound by more (`least_verified`)
-_BELOW = 10.0 * TOLERANCE
+BELOW = 10.0 * TOLERANCE
 
 
 def judged_again(
@@ -156,7 +156,7 @@ class _Judge:
         for key in ("family_lower", "free_form_lower"):
             rung = self.ladder["ladder"].get(key)
             least = rung["seconds"] if rung is not None and rung["certified"] else None
-            if seconds is not None and least and seconds < least * (1.0 - _BELOW):
+            if seconds is not None and least and seconds < least * (1.0 - BELOW):
                 return f"{seconds:.9g} s is less than {least:.9g} s, the certified bound ({key})"
         return None
 
