@@ -8,7 +8,7 @@ from dataclasses import asdict, dataclass
 from typing import Any
 
 from compare.benchmark.grade import Trace
-from compare.benchmark.records.rows import Row, RunKey
+from compare.benchmark.records.rows import BoundProof, Row, RunKey
 from compare.grading.cells import Cell, CellKey, cells_of
 from compare.grading.contest import Contest, contest
 from compare.grading.failures import Failure, failures
@@ -70,6 +70,12 @@ class Grading:
             kind=self.kind,
         )
 
+    @property
+    def certified(self) -> int:
+        """Number of instances whose gaps are measured against a certified bound."""
+        mine = printed(self.cells, self.protocol.swarm).values()
+        return sum(cell.rows[0].proof is BoundProof.certified for cell in mine)
+
     def to_json(self) -> dict[str, Any]:
         """Plain data, ready for strict JSON: a number that is not finite is None."""
         found, (wins, losses, ties) = self.contest, self.contest.counts
@@ -88,6 +94,7 @@ class Grading:
             "instances": len(found.duels),
             "seeds": self.protocol.seeds,
             "budget": self.protocol.budget,
+            "certified": self.certified,
             "coding": self.protocol.coding,
             "median_gap": dict(zip(("swarm", "against"), found.gaps, strict=True)),
             "practically_equal": asdict(found.practical),

@@ -12,15 +12,13 @@ from compare.grading.contest import ALPHA, Contest, Outcome
 from compare.statistics.pairs import holm
 from formulations import Problem
 
-Features = Mapping[str, float]
+Features = Mapping[str, float | None]
 
 NAMES = {
-    "segments": "number of segments",
+    "dimension": "number of segments",
     "joints": "number of joints that move",
-    "jerk": "jerk limits",
-    "position": "position limits",
-    "active": "number of active limits",
-    "basins": "number of basins found",
+    "active": "number of limits that the optimum reaches",
+    "basins": "number of local optima found",
     "conditioning": "conditioning",
 }
 """Features of an instance, in words."""
@@ -58,24 +56,26 @@ class Reason:
         )
 
 
-def features_of(problem: Problem) -> dict[str, float]:
-    """Return the features that a problem shows without being solved.
+def features_of(problem: Problem, described: Features) -> dict[str, float]:
+    """Return the features of an instance by name in words.
 
     Parameters
     ----------
     problem : Problem
+    described : mapping of str to float
+        What its proof found, as `compare.benchmark.suite.features` names it; None where it found none.
 
     Returns
     -------
     dict of str to float
-        By name in words.
+        NaN for what was not found.
     """
     limits = problem.limits
+    found = {words: described.get(name) for name, words in NAMES.items()}
     return {
-        NAMES["segments"]: float(problem.n_segments),
-        NAMES["joints"]: float(len(problem.moving_joints)),
-        NAMES["jerk"]: float(np.isfinite(limits.jerk).any()),
-        NAMES["position"]: float(limits.has_position),
+        **{words: np.nan if value is None else float(value) for words, value in found.items()},
+        "jerk limits (0 or 1)": float(np.isfinite(limits.jerk).any()),
+        "position limits (0 or 1)": float(limits.has_position),
     }
 
 
@@ -99,8 +99,8 @@ def reasons(contest: Contest, features: Mapping[str, Features]) -> list[Reason]:
     a12 = np.array([duel.pair.a12 for duel in contest.duels])
     found = []
     for feature in features[names[0]]:
-        column = np.array([features[name][feature] for name in names])
-        if np.ptp(column) > 0 and np.ptp(a12) > 0:
+        column = np.array([features[name][feature] for name in names], dtype=np.float64)
+        if np.isfinite(column).all() and np.ptp(column) > 0 and np.ptp(a12) > 0:
             related = stats.spearmanr(column, a12)
             table = _table(column, [duel.outcome for duel in contest.duels])
             found.append((feature, float(related.statistic), float(related.pvalue), table))

@@ -2,70 +2,58 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping
 from concurrent.futures import Executor
-from dataclasses import dataclass
 
-from compare.benchmark.ladders import LadderRecord, ladder_record
-from compare.benchmark.records.proof_cache import proof_key
+from compare.benchmark.ladders import LadderRecord
+from compare.benchmark.proving import prove_all
 from compare.benchmark.records.store import Store
-from compare.benchmark.run import each, swarm, warm_up
+from compare.benchmark.run import swarm, warm_up
 from compare.benchmark.statistics import bound_of
+from compare.benchmark.suite import Instance, Split, chosen, suite
 from compare.grading.failures import Console
 from compare.grading.grading import Grading, graded
 from compare.grading.protocol import Protocol
-from compare.grading.reasons import Features, features_of
-from formulations import CASES, InputError, Problem, ladder, load
+from compare.grading.reasons import features_of
+from formulations import CASES, InputError
 
 
-@dataclass(frozen=True)
-class Chosen:
-    """The instances of a grading: problems and features by name, and what they are called."""
-
-    problems: dict[str, Problem]
-    features: dict[str, Features]
-    kind: str
-
-
-def chosen_instances(names: str | None) -> Chosen:
-    """Return the instances that a swarm is graded on.
+def chosen_instances(names: str | None) -> tuple[list[Instance], str]:
+    """Return the instances that a swarm is graded on, and what they are called.
 
     Parameters
     ----------
     names : str or None
-        Names of shipped cases, or problem files, with commas between them; None: the held-out instances.
+        Names of shipped cases or of instances, or problem files, with commas between them; None: the
+        held-out instances.
 
     Returns
     -------
-    Chosen
+    instances : list of Instance
+    kind : str
 
     Raises
     ------
     InputError
         There is none of a name.
     """
-    kind = "held-out instances" if names is None else "instances"
-    listed = (
-        list(CASES) if names is None else [name.strip() for name in names.split(",") if name.strip()]
-    )
+    if names is None:
+        return [one for one in suite() if one.split is Split.held_out], "held-out instances"
+    listed = [name.strip() for name in names.split(",") if name.strip()]
     if not listed:
         raise InputError("--cases: none given")
-    problems: dict[str, Problem] = {}
-    for name in listed:
-        problem = load(name)
-        if problem.name in problems:
-            raise InputError(f"--cases: two instances are called {problem.name}")
-        problems[problem.name] = problem
-    return Chosen(problems, {name: features_of(one) for name, one in problems.items()}, kind)
+    known = {} if set(listed) <= set(CASES) else {one.name: one for one in suite()}
+    found = [known[name] if name in known else chosen([name])[0] for name in listed]
+    if len({one.name for one in found}) < len(found):
+        raise InputError("--cases: an instance is named twice")
+    return found, "instances"
 
 
 def run_and_grade(
     pool: Executor,
     protocol: Protocol,
-    problems: Mapping[str, Problem],
+    instances: list[Instance],
     store: Store,
     *,
-    features: Mapping[str, Features],
     called: tuple[str, str],
     kind: str,
 ) -> Grading:
@@ -75,12 +63,9 @@ def run_and_grade(
     ----------
     pool : Executor
     protocol : Protocol
-    problems : mapping of str to Problem
-        By instance.
+    instances : list of Instance
     store : Store
         Where runs and bounds are kept; what it has is not computed again.
-    features : mapping of str to mapping of str to float
-        By instance.
     called : (str, str)
         How the user named the swarm and the other one.
     kind : str
@@ -90,47 +75,23 @@ def run_and_grade(
     -------
     Grading
     """
-    instances = dict(problems)
-    prove(pool, instances, store)
-    warm_up(instances)
-    swarm(pool, protocol.runs(instances), instances, store, tell=Console())
-    ladders = store.ladders()
+    prove_all(pool, instances, store)
+    problems = {one.name: one.problem for one in instances}
+    warm_up(problems)
+    swarm(pool, protocol.runs(problems), problems, store, tell=Console())
+    ladders, described = store.ladders(), store.instances()
     return graded(
         protocol,
         store.rows(),
         dict(store.traces()),
-        proved={name: proved_gap(name, ladders[name]) for name in instances},
-        features=features,
+        proved={name: proved_gap(name, ladders[name]) for name in problems},
+        features={
+            name: features_of(problem, described[name]["features"])
+            for name, problem in problems.items()
+        },
         called=called,
         kind=kind,
     )
-
-
-def prove(pool: Executor, problems: dict[str, Problem], store: Store) -> None:
-    """Find optimum and certified bound of each problem's family, where the store does not have them.
-
-    Parameters
-    ----------
-    pool : Executor
-    problems : dict of str to Problem
-        By instance.
-    store : Store
-    """
-    keys = {name: proof_key(problem, certify=True) for name, problem in problems.items()}
-    calls = []
-    for name, problem in sorted(problems.items(), key=lambda item: -item[1].n_segments):
-        known = store.proved(keys[name])
-        if known is None:
-            calls.append((name, problem))
-        else:
-            store.write_ladder(name, known)
-    if calls:
-        for name, found in each(pool, "optima", _optimum, calls):
-            store.write_ladder(name, found, keys[name])
-
-
-def _optimum(name: str, problem: Problem) -> tuple[str, LadderRecord]:
-    return name, ladder_record(ladder(problem, rungs=("family", "family_lower")))
 
 
 def proved_gap(name: str, record: LadderRecord) -> float:

@@ -8,6 +8,8 @@ from compare.grading.contest import Contest, Verdict
 from compare.grading.standing import Standing
 
 BEST = "cma-es"
+FEWEST = 6
+"""Instances of which Wilcoxon's test can be significant: 2 / 2^6 is below 5 %."""
 
 
 def verdict_sentence(
@@ -84,6 +86,8 @@ def seeds_sentence(found: Contest) -> str:
             f"{needed.seeds} seeds cannot be significant on any of {of} instances (least p"
             f" {p_text(needed.least_p)} after Holm): {needed.least_seeds} can"
         )
+    if of < FEWEST:
+        return f"{of} instances cannot be significant together: {FEWEST} can"
     if needed.for_effect is None or needed.for_effect <= needed.seeds:
         return f"{needed.seeds} seeds are enough for the effect seen, but more instances are needed"
     return f"{needed.for_effect} seeds would show the effect seen on an instance (now {needed.seeds})"

@@ -72,7 +72,9 @@ class DrawnToZero:
                 "It is not drawn to zero, but prefers one end of the box: mirrored, a run beats one as"
                 f" printed with probability {mirrored.effect.mean:.2f} (p = {mirrored.effect.p:.1g})."
             )
-        return f"It is not drawn to zero: {told}."
+        if offset.effect.negligible:
+            return f"It is not drawn to zero: {told}."
+        return f"There is no sign that it is drawn to zero: {told}."
 
 
 def drawn_to_zero(cells: Mapping[CellKey, Cell], swarm: str, cases: Sequence[str]) -> DrawnToZero:

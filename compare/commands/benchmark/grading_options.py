@@ -2,14 +2,16 @@
 
 from __future__ import annotations
 
+import sys
 from dataclasses import replace
 from typing import Annotated
 
 from cyclopts import Parameter
 
+from compare.benchmark.below_bound import BelowBoundError
 from compare.benchmark.records.store import Store
 from compare.benchmark.run import workers
-from compare.commands import DONE
+from compare.commands import DONE, FAILED
 from compare.files import output_folder
 from compare.grading.names import swarm_name
 from compare.grading.page import as_text, write_page
@@ -72,13 +74,14 @@ def graded_page(
     protocol = Protocol(names[0], names[1], others, seeds=seeds, budget=budget)
     if not zero:
         protocol = replace(protocol, zero_instances=0)
-    chosen = chosen_instances(cases)
+    instances, kind = chosen_instances(cases)
     store = Store(output_folder(out))
-    with workers(jobs) as pool:
-        found = run_and_grade(
-            pool, protocol, chosen.problems, store,
-            features=chosen.features, called=(swarm, against), kind=chosen.kind,
-        )  # fmt: skip
+    try:
+        with workers(jobs) as pool:
+            found = run_and_grade(pool, protocol, instances, store, called=(swarm, against), kind=kind)
+    except BelowBoundError as error:
+        print(f"error: {error}", file=sys.stderr)
+        return FAILED
     written = write_page(found, store.folder, page)
     show(f"{as_text(found)}\n\npage: {written}", {**found.to_json(), "page": str(written)}, json)
     return DONE
