@@ -43,6 +43,8 @@ class Grading:
         All runs.
     kind : str
         What the instances are called.
+    left_out : dict of str to str
+        Instances without a verified optimum, on which nobody was run, with the reason.
     """
 
     protocol: Protocol
@@ -55,6 +57,7 @@ class Grading:
     failures: list[Failure]
     cells: dict[CellKey, Cell]
     kind: str
+    left_out: dict[str, str]
 
     @property
     def sentence(self) -> str:
@@ -122,6 +125,7 @@ class Grading:
                 for duel in found.duels
             ],
             "failures": [asdict(failure) for failure in self.failures],
+            "left_out": self.left_out,
             "machine": row.machine,
             "versions": row.versions,
         }
@@ -137,6 +141,7 @@ def graded(
     features: Mapping[str, Features],
     called: tuple[str, str] | None = None,
     kind: str = "held-out instances",
+    left_out: Mapping[str, str] | None = None,
 ) -> Grading:
     """Grade a swarm from the rows of its protocol.
 
@@ -154,6 +159,8 @@ def graded(
         How the user named the swarm and the other one.
     kind : str
         What the instances are called.
+    left_out : mapping of str to str, optional
+        Instances that were left out, with the reason.
 
     Returns
     -------
@@ -180,6 +187,7 @@ def graded(
         failures(rows),
         cells,
         kind,
+        dict(left_out or {}),
     )
 
 

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import sys
 from concurrent.futures import Executor
 
 from compare.benchmark.ladders import LadderRecord
@@ -76,45 +77,48 @@ def run_and_grade(
     Grading
     """
     prove_all(pool, instances, store)
-    problems = {one.name: one.problem for one in instances}
+    ladders, described = store.ladders(), store.instances()
+    left_out = {one.name: reason for one in instances if (reason := _no_optimum(ladders[one.name]))}
+    for name, reason in left_out.items():
+        print(f"left out: {name}: {reason}", file=sys.stderr, flush=True)
+    problems = {one.name: one.problem for one in instances if one.name not in left_out}
+    if not problems:
+        raise InputError(f"--cases: no instance has an optimum: {next(iter(left_out.values()))}")
     warm_up(problems)
     swarm(pool, protocol.runs(problems), problems, store, tell=Console())
-    ladders, described = store.ladders(), store.instances()
     return graded(
         protocol,
         store.rows(),
         dict(store.traces()),
-        proved={name: proved_gap(name, ladders[name]) for name in problems},
+        proved={name: proved_gap(ladders[name]) for name in problems},
         features={
             name: features_of(problem, described[name]["features"])
             for name, problem in problems.items()
         },
         called=called,
         kind=kind,
+        left_out=left_out,
     )
 
 
-def proved_gap(name: str, record: LadderRecord) -> float:
-    """Return how far the verified optimum of an instance is from the bound that gaps are measured against.
+def _no_optimum(record: LadderRecord) -> str:
+    """Why no gap can be told on an instance; empty if one can."""
+    rung = record["ladder"]["family"]
+    return "" if rung["seconds"] is not None else f"no verified optimum: {rung['note']}"
+
+
+def proved_gap(record: LadderRecord) -> float:
+    """Return how far a verified optimum is from the bound that gaps are measured against.
 
     Parameters
     ----------
-    name : str
-        The instance.
     record : LadderRecord
-        Its bounds.
+        Bounds of an instance that has an optimum.
 
     Returns
     -------
     float
-
-    Raises
-    ------
-    InputError
-        If it has no optimum.
     """
     bound, _ = bound_of(record)
     optimum = record["ladder"]["family"]["seconds"]
-    if bound is None or optimum is None:
-        raise InputError(f"{name}: has no optimum: {record['ladder']['family']['note']}")
-    return max(0.0, optimum / bound - 1.0)
+    return max(0.0, optimum / bound - 1.0) if bound and optimum else 0.0

@@ -1,0 +1,66 @@
+"""A flock that contracts to zero is called drawn to zero; PSO and random search are not."""
+
+from __future__ import annotations
+
+import numpy as np
+import pytest
+
+from compare.benchmark.coordinates import seen_in
+from compare.benchmark.objective import Objective, search_box
+from compare.benchmark.protocol import Coordinates
+from compare.grading.cells import Cell
+from compare.grading.zero import DrawnToZero, drawn_to_zero
+from formulations import Problem, load
+from metaheuristics import ALGORITHMS, Task, minimise
+from metaheuristics.driver.task import Moves
+
+from made_cells import cell  # isort: skip
+
+SEEDS = 9
+
+
+def contracting(task: Task, *, population: int = 20) -> Moves:
+    """Every move ends nearer to zero."""
+    x = task.sample(population)
+    while True:
+        fitness = yield x
+        best = x[fitness.argmin()]
+        x = task.clip(task.rng.random(x.shape) * (best + task.rng.normal(size=x.shape) * x))
+
+
+def problems() -> dict[str, Problem]:
+    """Variants of a case: limits scaled joint by joint."""
+    base, made = load("sr4c"), {}
+    for k in range(10):
+        scale = np.random.default_rng(k).uniform(0.5, 1.5, base.limits.derivatives.shape)
+        velocity, acceleration, jerk = base.limits.derivatives * scale
+        limits = {"velocity": velocity, "acceleration": acceleration, "jerk": jerk}
+        made[f"p{k}"] = Problem(base.waypoints, limits, family=base.family)
+    return made
+
+
+def moved(search: object) -> DrawnToZero:
+    cells: dict[tuple[str, str, Coordinates], Cell] = {}
+    for name, problem in problems().items():
+        objective, (lo, hi) = Objective(problem, stretch=True), search_box(problem)
+        for seen in Coordinates:
+            task = seen_in(seen, objective, lo, hi)
+            runs = [
+                minimise(search, *task, budget=400, seed=seed, population=20).fitness  # type: ignore[arg-type]
+                for seed in range(SEEDS)
+            ]
+            cells[name, "it", seen] = cell(np.log10(np.array(runs)))
+    return drawn_to_zero(cells, "it", list(problems()))
+
+
+def test_a_flock_that_contracts_to_zero_is_found() -> None:
+    found = moved(contracting)
+    assert found.drawn
+    assert found.sentence.startswith("It is drawn to zero, and gains from it here")
+
+
+@pytest.mark.parametrize("name", ["pso", "mipso", "random"])
+def test_a_search_that_does_not_know_zero_is_not_accused(name: str) -> None:
+    found = moved(ALGORITHMS[name].function)
+    assert not found.drawn
+    assert "not drawn to zero" in found.sentence or "no sign" in found.sentence
