@@ -35,7 +35,7 @@ from compare.statistics.seeds import SeedsNeeded, seeds_needed
 ALPHA = 0.05
 
 
-class Verdict(StrEnum):
+class SwarmVerdict(StrEnum):
     """What is said of a swarm beside another one."""
 
     better = "better"
@@ -44,7 +44,7 @@ class Verdict(StrEnum):
     undecided = "undecided"
 
 
-class Outcome(StrEnum):
+class DuelOutcome(StrEnum):
     """What is said of one instance."""
 
     win = "win"
@@ -63,11 +63,11 @@ class Duel:
     p: float
 
     @property
-    def outcome(self) -> Outcome:
+    def outcome(self) -> DuelOutcome:
         """Whether it is significant, and who wins."""
         if self.p >= ALPHA or self.pair.a12 == 0.5:
-            return Outcome.tie
-        return Outcome.win if self.pair.a12 > 0.5 else Outcome.loss
+            return DuelOutcome.tie
+        return DuelOutcome.win if self.pair.a12 > 0.5 else DuelOutcome.loss
 
 
 @dataclass(frozen=True)
@@ -92,19 +92,19 @@ class Contest:
     needed: SeedsNeeded
 
     @property
-    def verdict(self) -> Verdict:
+    def verdict(self) -> SwarmVerdict:
         """By the rule at the head of this file."""
         if self.effect.negligible:
-            return Verdict.equal
+            return SwarmVerdict.equal
         if self.effect.p >= ALPHA:
-            return Verdict.undecided
-        return Verdict.better if self.effect.mean > 0.5 else Verdict.worse
+            return SwarmVerdict.undecided
+        return SwarmVerdict.better if self.effect.mean > 0.5 else SwarmVerdict.worse
 
     @property
     def counts(self) -> tuple[int, int, int]:
         """Wins, losses, ties."""
         found = [duel.outcome for duel in self.duels]
-        return found.count(Outcome.win), found.count(Outcome.loss), found.count(Outcome.tie)
+        return found.count(DuelOutcome.win), found.count(DuelOutcome.loss), found.count(DuelOutcome.tie)
 
     @property
     def gaps(self) -> tuple[float, float]:

@@ -7,7 +7,7 @@ import numpy as np
 from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 
-from compare.grading.contest import Outcome
+from compare.grading.contest import DuelOutcome
 from compare.grading.grading import Grading
 from compare.grading.standing import printed
 from compare.report.style import BLACK, BLUE, GREEN, GREY, ORANGE, PURPLE, SKY, VERMILION, styled
@@ -16,9 +16,9 @@ from compare.statistics.needed import needed
 from compare.statistics.runtimes import fixed_target_ecdf
 
 _OUTCOMES = {  # colour, marker: neither tells alone
-    Outcome.win: (BLUE, "^", "win"),
-    Outcome.tie: (GREY, "o", "tie"),
-    Outcome.loss: (VERMILION, "v", "loss"),
+    DuelOutcome.win: (BLUE, "^", "win"),
+    DuelOutcome.tie: (GREY, "o", "tie"),
+    DuelOutcome.loss: (VERMILION, "v", "loss"),
 }
 _LINES = [
     (BLUE, "-"), (VERMILION, "--"), (GREEN, "-."), (BLACK, ":"), (ORANGE, "-"), (PURPLE, "--"), (SKY, "-."),

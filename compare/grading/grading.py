@@ -12,9 +12,9 @@ from compare.benchmark.records.rows import BoundProof, Row, RunKey
 from compare.grading.cells import Cell, CellKey, cells_of
 from compare.grading.contest import Contest, contest
 from compare.grading.failures import Failure, failures
-from compare.grading.protocol import Protocol
+from compare.grading.protocol import GradingProtocol
 from compare.grading.reasons import Features, Reason, reasons
-from compare.grading.standing import Standing, printed, standing
+from compare.grading.standing import Ranking, printed, standing
 from compare.grading.words import seeds_sentence, verdict_sentence
 from compare.grading.zero import DrawnToZero, drawn_to_zero
 
@@ -25,13 +25,13 @@ class Grading:
 
     Attributes
     ----------
-    protocol : Protocol
+    protocol : GradingProtocol
         What was run.
     called, against : str
         The swarm and the other one, as the user named them.
     contest : Contest
         The swarm against the other one.
-    standing : Standing
+    standing : Ranking
         Among all swarms.
     zero : DrawnToZero or None
         Whether it is drawn to zero; None if that was not tested.
@@ -47,11 +47,11 @@ class Grading:
         Instances without a verified optimum, on which nobody was run, with the reason.
     """
 
-    protocol: Protocol
+    protocol: GradingProtocol
     called: str
     against: str
     contest: Contest
-    standing: Standing
+    standing: Ranking
     zero: DrawnToZero | None
     reasons: list[Reason]
     failures: list[Failure]
@@ -133,7 +133,7 @@ class Grading:
 
 
 def graded(
-    protocol: Protocol,
+    protocol: GradingProtocol,
     rows: Sequence[Row],
     traces: Mapping[RunKey, list[Trace]],
     *,
@@ -147,7 +147,7 @@ def graded(
 
     Parameters
     ----------
-    protocol : Protocol
+    protocol : GradingProtocol
     rows : sequence of Row
         Of all its runs.
     traces : mapping of RunKey to list of Trace

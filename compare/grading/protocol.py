@@ -20,7 +20,7 @@ CODINGS = ("stretched", "shared")
 
 
 @dataclass(frozen=True)
-class Protocol:
+class GradingProtocol:
     """What is run.
 
     Attributes

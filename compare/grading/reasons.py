@@ -8,7 +8,7 @@ from dataclasses import dataclass
 import numpy as np
 from scipy import stats
 
-from compare.grading.contest import ALPHA, Contest, Outcome
+from compare.grading.contest import ALPHA, Contest, DuelOutcome
 from compare.statistics.pairs import holm
 from formulations import Problem
 
@@ -123,7 +123,7 @@ def telling(found: list[Reason]) -> list[Reason]:
     return [reason for reason in found if reason.p < ALPHA]
 
 
-def _table(column: np.ndarray, outcomes: list[Outcome]) -> tuple[tuple[float, int, int, int], ...]:
+def _table(column: np.ndarray, outcomes: list[DuelOutcome]) -> tuple[tuple[float, int, int, int], ...]:
     """Wins, losses and ties by value of a feature."""
     values = np.unique(column)
     ends = values if len(values) <= 6 else np.unique([np.median(column), column.max()])
@@ -131,7 +131,10 @@ def _table(column: np.ndarray, outcomes: list[Outcome]) -> tuple[tuple[float, in
     for end in ends:
         mine = [o for o, v in zip(outcomes, column, strict=True) if lower < v <= end]
         lines.append(
-            (float(end), *(mine.count(kind) for kind in (Outcome.win, Outcome.loss, Outcome.tie)))
+            (
+                float(end),
+                *(mine.count(kind) for kind in (DuelOutcome.win, DuelOutcome.loss, DuelOutcome.tie)),
+            )
         )
         lower = end
     return tuple(lines)  # type: ignore[arg-type]

@@ -13,7 +13,7 @@ from compare.benchmark.statistics import bound_of
 from compare.benchmark.suite import Instance, Split, chosen, suite
 from compare.grading.failures import Console
 from compare.grading.grading import Grading, graded
-from compare.grading.protocol import Protocol
+from compare.grading.protocol import GradingProtocol
 from compare.grading.reasons import features_of
 from formulations import CASES, InputError
 
@@ -51,7 +51,7 @@ def chosen_instances(names: str | None) -> tuple[list[Instance], str]:
 
 def run_and_grade(
     pool: Executor,
-    protocol: Protocol,
+    protocol: GradingProtocol,
     instances: list[Instance],
     store: Store,
     *,
@@ -63,7 +63,7 @@ def run_and_grade(
     Parameters
     ----------
     pool : Executor
-    protocol : Protocol
+    protocol : GradingProtocol
     instances : list of Instance
     store : Store
         Where runs and bounds are kept; what it has is not computed again.

@@ -13,14 +13,14 @@ from compare.grading.contest import Contest, middle
 from compare.statistics.cells import complete
 from compare.statistics.instances import Ranks, ranks
 from compare.statistics.pairs import holm
-from compare.statistics.runtimes import ExpectedTime, Share, expected_running_time, success_rate
+from compare.statistics.runtimes import ExpectedTime, SuccessShare, expected_running_time, success_rate
 
 TARGET = 1e-3
 """The target of success rate and expected running time: a gap of 0.1 %."""
 
 
 @dataclass(frozen=True)
-class Place:
+class RankedSwarm:
     """One swarm of the standing.
 
     Attributes
@@ -32,7 +32,7 @@ class Place:
     behind : float or None
         Geometric mean over the instances of its median gap over that of the best swarm; None where a
         median is a miss. Gaps below the last target count as that.
-    success : Share
+    success : SuccessShare
         Runs that reached `TARGET`, over all instances.
     expected : ExpectedTime
         Evaluations until `TARGET`, over all instances, each failure charged its own budget.
@@ -52,7 +52,7 @@ class Place:
     rank: float
     gap: float
     behind: float | None
-    success: Share
+    success: SuccessShare
     expected: ExpectedTime
     area: float
     own: float
@@ -63,14 +63,14 @@ class Place:
 
 
 @dataclass(frozen=True)
-class Standing:
+class Ranking:
     """All swarms, best mean rank first, and what the critical-difference diagram shows."""
 
-    places: tuple[Place, ...]
+    places: tuple[RankedSwarm, ...]
     swarms: tuple[str, ...]
     ranks: Ranks
 
-    def place(self, swarm: str) -> Place:
+    def place(self, swarm: str) -> RankedSwarm:
         """Return the place of a swarm.
 
         Parameters
@@ -79,7 +79,7 @@ class Standing:
 
         Returns
         -------
-        Place
+        RankedSwarm
         """
         return next(place for place in self.places if place.swarm == swarm)
 
@@ -105,7 +105,7 @@ def printed(cells: Mapping[CellKey, Cell], swarm: str) -> dict[str, Cell]:
 
 def standing(
     cells: Mapping[CellKey, Cell], swarms: Sequence[str], contests: Mapping[str, Contest]
-) -> Standing:
+) -> Ranking:
     """Rank swarms over all instances.
 
     Parameters
@@ -117,7 +117,7 @@ def standing(
 
     Returns
     -------
-    Standing
+    Ranking
 
     Raises
     ------
@@ -149,7 +149,7 @@ def standing(
         )
         for k in order
     ]
-    return Standing(tuple(places), tuple(swarms), found)
+    return Ranking(tuple(places), tuple(swarms), found)
 
 
 def _behind(gaps: np.ndarray, best: np.ndarray) -> float | None:
@@ -165,7 +165,7 @@ def _place(
     behind: float | None,
     p: float | None,
     contest: Contest | None,
-) -> Place:
+) -> RankedSwarm:
     rows = [row for cell in mine.values() for row in cell.rows]
     hits = np.concatenate([_to_target(cell) for cell in mine.values()])
     spent = np.array([row.budget for row in rows], dtype=np.float64)
@@ -174,7 +174,7 @@ def _place(
         float(np.median([getattr(row, name) / row.evaluations for row in made])) * 1e6 if made else 0.0
         for name in ("seconds_algorithm", "seconds_objective")
     ]
-    return Place(
+    return RankedSwarm(
         swarm,
         rank,
         middle([cell.gap for cell in mine.values()]),

@@ -4,8 +4,8 @@ from __future__ import annotations
 
 import math
 
-from compare.grading.contest import Contest, Verdict
-from compare.grading.standing import Standing
+from compare.grading.contest import Contest, SwarmVerdict
+from compare.grading.standing import Ranking
 
 BEST = "cma-es"
 FEWEST = 6
@@ -16,7 +16,7 @@ def verdict_sentence(
     swarm: str,
     against: str,
     found: Contest,
-    order: Standing,
+    order: Ranking,
     *,
     name: str,
     drawn: bool,
@@ -30,7 +30,7 @@ def verdict_sentence(
     swarm, against : str
         As the user names them.
     found : Contest
-    order : Standing
+    order : Ranking
     name : str
         Name of the swarm in the standing.
     drawn : bool
@@ -48,12 +48,12 @@ def verdict_sentence(
     wins, losses, _ = found.counts
     of, (mine, other) = len(found.duels), found.gaps
     verdict = found.verdict
-    if verdict is Verdict.better:
+    if verdict is SwarmVerdict.better:
         start = f"{swarm} is better than {against} on {wins} of {of} {kind}, worse on {losses}"
-    elif verdict is Verdict.worse:
+    elif verdict is SwarmVerdict.worse:
         start = f"{swarm} is worse than {against} on {losses} of {of} {kind}, better on {wins}"
     else:
-        told = "is equal to" if verdict is Verdict.equal else "cannot be told from"
+        told = "is equal to" if verdict is SwarmVerdict.equal else "cannot be told from"
         start = f"{swarm} {told} {against}: better on {wins} of {of} {kind}, worse on {losses}"
     parts = [
         start,
@@ -63,7 +63,7 @@ def verdict_sentence(
         "drawn to zero" if drawn else "",
         f"{failed} of its runs failed" if failed else "",
     ]
-    if verdict is Verdict.undecided:
+    if verdict is SwarmVerdict.undecided:
         parts.append(seeds_sentence(found))
     return "; ".join(part for part in parts if part) + "."
 
@@ -93,7 +93,7 @@ def seeds_sentence(found: Contest) -> str:
     return f"{needed.for_effect} seeds would show the effect seen on an instance (now {needed.seeds})"
 
 
-def _behind(order: Standing, name: str) -> str:
+def _behind(order: Ranking, name: str) -> str:
     """How far it is from CMA-ES, where both are in the standing and no median is a miss."""
     if name == BEST or BEST not in order.swarms:
         return ""

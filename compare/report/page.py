@@ -121,6 +121,10 @@ def environment(folder: Path) -> jinja2.Environment:
     ----------
     folder : Path
         Folder of the report; ``inline(NAME)`` puts DIR/NAME.svg into a page.
+
+    Returns
+    -------
+    jinja2.Environment
     """
     made = jinja2.Environment(
         loader=jinja2.PackageLoader("compare.report"),
@@ -172,6 +176,10 @@ def percent(gap: float | None) -> str:
     Parameters
     ----------
     gap : float or None
+
+    Returns
+    -------
+    str
     """
     if gap is None:
         return "none"

@@ -30,7 +30,7 @@ class Distribution:
     at : Array, shape (m,)
         Where it rises, increasing: evaluations.
     share : Array, shape (m,)
-        Share of all runs and targets that were reached by then; the last value is below 1 where some
+        SuccessShare of all runs and targets that were reached by then; the last value is below 1 where some
         were never reached.
     """
 
@@ -39,8 +39,8 @@ class Distribution:
 
 
 @dataclass(frozen=True)
-class Share:
-    """A share of runs, with its interval."""
+class SuccessShare:
+    """A share of runs that succeed, with its interval."""
 
     count: int
     of: int
@@ -180,7 +180,7 @@ def _time_per_success(paid: Array, success: Array, axis: int = -1) -> Array:
         return np.asarray(paid.sum(axis=axis) / success.sum(axis=axis))
 
 
-def success_rate(hits: ArrayLike, level: float = 0.95) -> Share:
+def success_rate(hits: ArrayLike, level: float = 0.95) -> SuccessShare:
     """Return the share of runs that reached a target, with its Wilson interval.
 
     Parameters
@@ -192,12 +192,12 @@ def success_rate(hits: ArrayLike, level: float = 0.95) -> Share:
 
     Returns
     -------
-    Share
+    SuccessShare
     """
     reached = np.isfinite(np.asarray(hits, dtype=np.float64))
     count, of = int(reached.sum()), len(reached)
     interval = stats.binomtest(count, of).proportion_ci(level, method="wilson")
-    return Share(count, of, count / of, float(interval.low), float(interval.high))
+    return SuccessShare(count, of, count / of, float(interval.low), float(interval.high))
 
 
 def area_over_curve(

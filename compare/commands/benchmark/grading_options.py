@@ -15,7 +15,7 @@ from compare.commands import DONE, FAILED
 from compare.files import output_folder
 from compare.grading.names import swarm_name
 from compare.grading.page import as_text, write_page
-from compare.grading.protocol import Protocol
+from compare.grading.protocol import GradingProtocol
 from compare.grading.running import chosen_instances, run_and_grade
 from compare.screen import show
 from compare.statistics.needed import MissingStatisticsError, all_present
@@ -54,7 +54,7 @@ def graded_page(
         Name of the page.
     others : tuple of str
         Further swarms of the standing.
-    out, json, seeds, budget, cases, jobs
+    out, json, seeds, budget, cases, jobs : str, str or None, int, int, str or None, int
         The options of the command.
     zero : bool
         Whether to test if the swarm is drawn to zero.
@@ -71,7 +71,7 @@ def graded_page(
         raise InputError(str(error)) from None
     if names[0] == names[1]:
         raise InputError(f"{against}: is the swarm itself; name another one to compare it with")
-    protocol = Protocol(names[0], names[1], others, seeds=seeds, budget=budget)
+    protocol = GradingProtocol(names[0], names[1], others, seeds=seeds, budget=budget)
     if not zero:
         protocol = replace(protocol, zero_instances=0)
     instances, kind = chosen_instances(cases)

@@ -8,7 +8,7 @@ from cyclopts import Parameter
 
 from compare.commands.benchmark.grading_options import Instances, graded_page
 from compare.commands.options import CORES, Budget, Jobs, Json, Out, Seeds
-from compare.grading.protocol import SEEDS, Protocol
+from compare.grading.protocol import SEEDS, GradingProtocol
 
 
 def versus(
@@ -19,7 +19,7 @@ def versus(
     out: Out = "grade",
     json: Json = None,
     seeds: Seeds = SEEDS,
-    budget: Budget = Protocol.budget,
+    budget: Budget = GradingProtocol.budget,
     cases: Instances = None,
     jobs: Jobs = CORES,
 ) -> int:
