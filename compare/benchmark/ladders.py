@@ -25,7 +25,7 @@ class LadderRecord(TypedDict):
 
     ``ladder``: rungs by key. ``durations``: by key, those of the motions that have some [s].
     ``alone``: optimum of each joint alone [s], None where a joint does not move. ``held_up_by``: what
-    holds the fastest motion up, a sentence each. ``made_of``: problem, versions and code behind it.
+    holds the fastest motion up, a sentence each.
     """
 
     problem: str
@@ -36,7 +36,6 @@ class LadderRecord(TypedDict):
     title: NotRequired[str]
     family: NotRequired[str]
     held_up_by: NotRequired[list[str]]
-    made_of: NotRequired[str]
 
 
 def ladder_record(ladder: Ladder) -> LadderRecord:

@@ -8,7 +8,7 @@ import os
 import signal
 import sys
 from collections import Counter
-from collections.abc import Callable, Iterable, Iterator
+from collections.abc import Callable, Collection, Iterable, Iterator
 from concurrent.futures import FIRST_COMPLETED, Executor, Future, ProcessPoolExecutor, wait
 from contextlib import contextmanager
 from typing import Any, TypeVar
@@ -29,7 +29,7 @@ from compare.benchmark.records.rows import BoundProof, Row
 from compare.benchmark.records.store import Store
 from compare.benchmark.statistics import bound_of
 from compare.screen import bar
-from formulations import FAMILIES, Problem, ladder
+from formulations import FAMILIES, InputError, Problem, ladder
 
 T = TypeVar("T")
 
@@ -128,7 +128,10 @@ def climb(pool: Executor, problems: dict[str, Problem], store: Store, *, certify
     certify : bool
         Whether the bound of the spline family is proved.
     """
-    keys = {case: proof_key(problem, certify=certify) for case, problem in problems.items()}
+    keys = {
+        case: proof_key(problem, "all" if certify else "uncertified")
+        for case, problem in problems.items()
+    }
     calls = []
     for case, problem in sorted(problems.items(), key=lambda item: -item[1].n_segments):
         known = store.proved(keys[case])
@@ -137,7 +140,8 @@ def climb(pool: Executor, problems: dict[str, Problem], store: Store, *, certify
         else:
             store.write_ladder(case, known)
     for case, found in each(pool, "bounds", _ladder, calls):
-        store.write_ladder(case, found, keys[case])
+        store.write_proof(keys[case], found)
+        store.write_ladder(case, found)
 
 
 def _ladder(case: str, problem: Problem, certify: bool) -> tuple[str, LadderRecord]:
@@ -149,6 +153,8 @@ def swarm(
     runs: list[Run],
     problems: dict[str, Problem],
     store: Store,
+    *,
+    allow: Collection[str] = (),
     tell: Callable[[Graded], None] | None = None,
 ) -> None:
     """Grade every run that the store does not have yet, and write ``rows.csv`` in the order of the runs.
@@ -167,12 +173,24 @@ def swarm(
         By case.
     store : Store
         With the bounds of all cases.
+    allow : collection of str
+        Columns in which the rows of one cell may differ: ``machine``, or none.
     tell : callable, optional
         Called with each run as it ends, once it is stored.
+
+    Raises
+    ------
+    InputError
+        If another machine has made part of a cell, unless that is allowed; nothing is run then.
     """
     ladders = store.ladders()
     bounds = {case: bound_of(ladders[case]) for case in problems}
     store.write_plan(runs, problems)
+    if (others := store.other_machines(machine())) and "machine" not in allow:
+        raise InputError(
+            f"{store.folder}: holds rows of another machine ({others[0]}; this is {machine()}), which are not"
+            " pooled unless --machines is given"
+        )
     _tell_what_is_left_out(runs, problems, store)
     store.measure(bounds)
     left = [runs[place] for place in store.left()]
@@ -182,8 +200,9 @@ def swarm(
         for graded in each(pool, f"swarms (x{_BATCH} runs)", _grades, calls):
             for one in graded:
                 require_above(one.row, ladders[one.run.case])
-                store.add(one)
-                if tell is not None:
+            store.add_all((one.row, one.traces) for one in graded)  # what arrives together
+            if tell is not None:
+                for one in graded:
                     tell(one)
     except KeyboardInterrupt:
         store.write_csv()

@@ -71,6 +71,7 @@ def compare_all(
     budget: Annotated[int | None, Parameter(validator=positive)] = None,
     budget_factor: Annotated[int, Parameter(validator=positive)] = 1,
     resume: bool = False,
+    machines: bool = False,
 ) -> int:
     """Grade every swarm on every case, audit the papers, and write the report.
 
@@ -97,6 +98,8 @@ def compare_all(
         Multiply every budget by 10, say, or 100.
     resume
         Keep the proofs and rows that an interrupted run has finished.
+    machines
+        Let rows of one swarm on one case come from different machines.
     """
     started = time.perf_counter()
     on_suite = suite_ or instances is not None
@@ -131,6 +134,7 @@ def compare_all(
         cases=tuple(problems),
         seeds=tuple(sorted({run.seed for run in planned})),
         budget=budget_words(sorted({run.budget for run in planned})),
+        allow=("machine",) if machines else (),
     )
     store.write_settings(settings)
 
@@ -143,7 +147,7 @@ def compare_all(
                 _bounds(pool, graded_on, store, quick=quick)
             if full:
                 _announce(pool, planned, store, graded_on, jobs)
-            swarm(pool, planned, problems, store)
+            swarm(pool, planned, problems, store, allow=settings.allow)
             if on_suite:
                 page = render_suite(store, graded_on, settings)
             else:

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, fields
 from pathlib import Path
 from typing import Any
 
@@ -11,6 +11,7 @@ from compare.benchmark.ladders import LadderRecord
 from compare.benchmark.records.rejudge import judged_again
 from compare.benchmark.records.store import Settings, Store
 from compare.benchmark.statistics import Summary, median, summaries
+from compare.benchmark.suite.features import Features
 from compare.benchmark.suite.instance import Instance, Split
 from compare.files import write_text
 from compare.report.page import environment, faults_of, swarms_in
@@ -94,7 +95,7 @@ def render_suite(store: Store, instances: Sequence[Instance], settings: Settings
     """
     ladders, described = store.ladders(), store.instances()
     rows = judged_again(store.rows(), {one.name: one.problem for one in instances}, ladders)
-    found = summaries(rows)
+    found = summaries(rows, allow=settings.allow)
     variants = list(dict.fromkeys(row.variant for row in rows))
     swarms = swarms_in(rows)
     splits = {split: _solved(instances, ladders, split) for split in (Split.held_out, Split.open)}
@@ -149,5 +150,6 @@ def _line(one: Instance, ladder: LadderRecord, described: dict[str, Any]) -> dic
         "bound": lower,
         "proved": upper / lower - 1.0 if upper and lower else None,
         "note": ladder["ladder"]["family_lower"]["note"],
+        **dict.fromkeys((field.name for field in fields(Features)), "–"),
         **described.get("features", {}),
     }

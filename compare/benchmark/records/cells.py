@@ -1,11 +1,8 @@
-"""The text of one cell of ``rows.csv``, and back: strict in both directions."""
+"""The text of one cell of ``rows.csv``."""
 
 from __future__ import annotations
 
 import math
-from collections.abc import Callable
-from enum import StrEnum
-from typing import Any
 
 
 def cell_text(value: object) -> str:
@@ -50,52 +47,3 @@ def one_line(text: str) -> str:
     str
     """
     return " ".join(text.splitlines()).encode("utf-8", "backslashreplace").decode("utf-8")
-
-
-def parser_of(kind: Any) -> Callable[[str], Any]:
-    """Return the function that reads the text of a cell.
-
-    Parameters
-    ----------
-    kind : type
-        Type of the column: str, int, float, bool, a StrEnum, a tuple of float, or float or bool with None.
-
-    Returns
-    -------
-    callable, str to value
-        It raises ValueError for text that does not fit.
-
-    Raises
-    ------
-    KeyError
-        If no column has this type.
-    """
-    if isinstance(kind, type) and issubclass(kind, StrEnum):
-        return kind
-    by_type: dict[Any, Callable[[str], Any]] = {
-        str: str,
-        int: int,
-        float: _number,
-        float | None: _optional(_number),
-        bool: _yes_or_no,
-        bool | None: _optional(_yes_or_no),
-        tuple[float, ...]: lambda cell: tuple(_number(part) for part in cell.split()),
-    }
-    return by_type[kind]
-
-
-def _optional(parse: Callable[[str], Any]) -> Callable[[str], Any]:
-    return lambda cell: None if cell == "" else parse(cell)
-
-
-def _number(cell: str) -> float:
-    value = float(cell)
-    if not math.isfinite(value):
-        raise ValueError(f"{cell!r} is not a finite number")
-    return value
-
-
-def _yes_or_no(cell: str) -> bool:
-    if cell not in ("yes", "no"):
-        raise ValueError(f"{cell!r} is neither yes nor no")
-    return cell == "yes"

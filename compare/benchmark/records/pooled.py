@@ -71,7 +71,8 @@ def require_pooled(rows: Iterable[Row], *, allow: Collection[str] = ()) -> Itera
             one, two = getattr(other, name), getattr(row, name)
             if one != two and name not in allow:
                 raise InputError(
-                    f"{', '.join(map(str, cell))}: rows of two {words} cannot be pooled: {one} and {two}"
+                    f"{', '.join(map(str, cell))}: rows of two {words} cannot be pooled:"
+                    f" {'none' if one in ('', None) else one} and {'none' if two in ('', None) else two}"
                 )
         if (*cell, row.seed) in seeds:
             raise InputError(

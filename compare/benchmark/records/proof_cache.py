@@ -18,29 +18,29 @@ class ProofKey(NamedTuple):
     """The key of the bounds of one problem in the store.
 
     problem: digest of all that it states; versions: of the programs; code: digest of the source that
-    finds and proves bounds; certified: whether the bound of the spline family was to be proved.
+    finds and proves bounds; asked: which bounds were asked for.
     """
 
     problem: str
     versions: str
     code: str
-    certified: bool
+    asked: str
 
 
-def proof_key(problem: Problem, *, certify: bool = True) -> ProofKey:
+def proof_key(problem: Problem, asked: str) -> ProofKey:
     """Return what the bounds of a problem depend on here and now.
 
     Parameters
     ----------
     problem : Problem
-    certify : bool
-        Whether the bound of the spline family is to be proved.
+    asked : str
+        A word for the bounds that are asked for: other bounds of the problem are another entry.
 
     Returns
     -------
     ProofKey
     """
-    return ProofKey(instance_digest(problem), versions_text(), _prover_digest(), certify)
+    return ProofKey(instance_digest(problem), versions_text(), _prover_digest(), asked)
 
 
 @cache

@@ -1,25 +1,18 @@
 """One row per run, one type from grading to the report: its columns, and their text in ``rows.csv``.
 
-The columns are the fields of `Row`, in their order. Reading is strict: each cell is parsed to the type
-of its column, and a cell that does not fit is named in the error.
+The columns are the fields of `Row`, in their order. `compare.benchmark.records.store` keeps them.
 """
 
 from __future__ import annotations
 
-import csv
-import io
-from collections.abc import Callable, Iterable, Mapping
 from dataclasses import asdict, dataclass, fields, replace
 from enum import StrEnum
-from functools import cache
-from pathlib import Path
-from typing import Any, NamedTuple, get_type_hints
+from typing import Any, NamedTuple
 
 import numpy as np
 
 from compare.benchmark.protocol import Coordinates, Track, variant
-from compare.benchmark.records.cells import cell_text, parser_of
-from formulations import InputError
+from compare.benchmark.records.cells import cell_text
 from formulations.problem.arrays import Array
 
 TIMING_COLUMNS = ("seconds_algorithm", "seconds_objective")
@@ -195,32 +188,6 @@ class Row:
         """The text of every column."""
         return [cell_text(getattr(self, name)) for name in COLUMNS]
 
-    @staticmethod
-    def from_cells(cells: Mapping[str, str]) -> Row:
-        """Parse the text of every column.
-
-        Parameters
-        ----------
-        cells : mapping of str to str
-            Text by column.
-
-        Returns
-        -------
-        Row
-
-        Raises
-        ------
-        ValueError
-            If a cell does not fit its column; the message names the column.
-        """
-        values = {}
-        for name, parse in _parsers().items():
-            try:
-                values[name] = parse(cells[name])
-            except ValueError as error:
-                raise ValueError(f"{name}: {error}") from None
-        return Row(**values)
-
 
 COLUMNS: tuple[str, ...] = tuple(field.name for field in fields(Row))
 
@@ -254,75 +221,3 @@ def durations_of(row: Row) -> Array:
         Empty if the row has no motion.
     """
     return np.array(row.durations, dtype=np.float64)
-
-
-def csv_text(rows: Iterable[Row], *, header: bool = True) -> str:
-    """Return rows as the text of a CSV table.
-
-    Parameters
-    ----------
-    rows : iterable of Row
-    header : bool
-        Whether the line of column names comes first.
-
-    Returns
-    -------
-    str
-        Whole lines.
-    """
-    buffer = io.StringIO()
-    writer = csv.writer(buffer, lineterminator="\n")
-    if header:
-        writer.writerow(COLUMNS)
-    writer.writerows(row.to_cells() for row in rows)
-    return buffer.getvalue()
-
-
-def read_csv(path: Path) -> list[Row]:
-    """Read every whole line of a table of rows. A last line that was cut short is left out.
-
-    Parameters
-    ----------
-    path : Path
-        A file that need not exist.
-
-    Returns
-    -------
-    list of Row
-        Empty if there is no such file.
-
-    Raises
-    ------
-    InputError
-        If the file is another table, or a line does not fit; the message names the line.
-    """
-    try:
-        text = path.read_text("utf-8")
-    except FileNotFoundError:
-        return []
-    except (OSError, ValueError) as error:
-        raise InputError(f"{path}: cannot be read: {error}") from None
-    whole = text[: text.rfind("\n") + 1]
-    found = []
-    try:
-        lines = csv.reader(io.StringIO(whole), strict=True)
-        if next(lines, None) != list(COLUMNS):
-            raise InputError(f"{path}: not a table of this version of timebound")
-        for cells in lines:
-            if len(cells) != len(COLUMNS):
-                raise InputError(
-                    f"{path}: line {lines.line_num} has {len(cells)} columns, not {len(COLUMNS)}"
-                )
-            try:
-                found.append(Row.from_cells(dict(zip(COLUMNS, cells, strict=True))))
-            except ValueError as error:
-                raise InputError(f"{path}: line {lines.line_num}: {error}") from None
-    except csv.Error as error:
-        raise InputError(f"{path}: line {lines.line_num}: {error}") from None
-    return found
-
-
-@cache
-def _parsers() -> dict[str, Callable[[str], Any]]:
-    """The parser of each column, by the type of its field."""
-    return {name: parser_of(kind) for name, kind in get_type_hints(Row).items()}

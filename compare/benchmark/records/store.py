@@ -10,19 +10,14 @@ from __future__ import annotations
 import secrets
 import sqlite3
 from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
-from contextlib import contextmanager
-from dataclasses import asdict
 from pathlib import Path
 from typing import Any, TypeVar
 
 from compare.benchmark.grade import Graded, Run, Trace
-from compare.benchmark.known_times import KnownTime
-from compare.benchmark.ladders import LadderRecord, checked_ladder_record
 from compare.benchmark.records.database import documents, makers, runs
-from compare.benchmark.records.database.connection import Database
 from compare.benchmark.records.database.schema import MAKER_COLUMNS
 from compare.benchmark.records.exports.csv_ import write_rows
-from compare.benchmark.records.proof_cache import ProofKey
+from compare.benchmark.records.facts import StoredFacts
 from compare.benchmark.records.rows import BoundProof, Row, RunKey
 from compare.benchmark.records.settings import Settings
 from formulations import InputError, Problem
@@ -32,7 +27,7 @@ __all__ = ["Settings", "Store"]
 T = TypeVar("T")
 
 
-class Store:
+class Store(StoredFacts):
     """The results of one comparison in one folder.
 
     Parameters
@@ -41,16 +36,10 @@ class Store:
     """
 
     def __init__(self, folder: Path) -> None:
-        self.folder = folder
-        self.file = folder / "results.sqlite"
+        super().__init__(folder)
         self.rows_file = folder / "rows.csv"
-        self.database = Database(self.file)
         self._salt = secrets.token_hex(8)  # see `makers.maker_id`
         self._plan: int | None = None
-
-    def close(self) -> None:
-        """Close the file; the next use opens it again."""
-        self.database.close()
 
     def clear(self) -> None:
         """Start afresh: nothing of an earlier comparison, but the bounds that were proved."""
@@ -100,6 +89,20 @@ class Store:
             return [(known[m], n) for m, n in runs.outside_of_plan(connection, plan).items()]
 
         return self._read(read, [])
+
+    def other_machines(self, machine: str) -> list[str]:
+        """Return the machines that made part of a cell of which runs are left.
+
+        Parameters
+        ----------
+        machine : str
+            The one that would make the rest.
+
+        Returns
+        -------
+        list of str
+        """
+        return self._read(lambda c, plan: runs.other_machines(c, plan, machine), [])
 
     def add(self, graded: Graded) -> None:
         """Store one finished run, row and traces, before this returns.
@@ -205,121 +208,7 @@ class Store:
         """Digests of the problems of the plan, by case."""
         return self._read(documents.digests_of_plan, {})
 
-    def write_settings(self, settings: Settings) -> None:
-        """Keep what was asked for.
-
-        Parameters
-        ----------
-        settings : Settings
-        """
-        self._write("settings", "", asdict(settings))
-
-    def settings(self) -> Settings:
-        """What was asked for. Raises InputError if the folder holds no comparison."""
-        found = self._documents("settings")
-        if not found:
-            raise InputError(f"{self.folder}: holds no comparison")
-        try:
-            return Settings.from_json(found[""])
-        except ValueError as error:
-            raise InputError(f"{self.file}: {error}") from None
-
-    def write_ladder(self, case: str, ladder: LadderRecord, key: ProofKey | None = None) -> None:
-        """Keep the bounds of a case.
-
-        Parameters
-        ----------
-        case : str
-        ladder : LadderRecord
-        key : ProofKey, optional
-            What they depend on; they are found again by it, in later comparisons too.
-        """
-        with self.database.writing() as connection:
-            documents.write_document(connection, "ladder", case, ladder)
-            if key is not None:
-                documents.write_proof(connection, key, ladder)
-
-    def ladders(self) -> dict[str, LadderRecord]:
-        """Bounds by case, in alphabetical order."""
-        found = self._documents("ladder")
-        return {case: checked_ladder_record(data, self.file) for case, data in found.items()}
-
-    def proved(self, key: ProofKey) -> LadderRecord | None:
-        """Return bounds that were found before, by the same code for the same problem.
-
-        Parameters
-        ----------
-        key : ProofKey
-
-        Returns
-        -------
-        LadderRecord or None
-        """
-        found = self._read(lambda connection, _: documents.proof(connection, key), None)
-        return None if found is None else checked_ladder_record(found, self.file)
-
-    def write_known_times(self, case: str, lines: list[KnownTime]) -> None:
-        """Keep what is known of the task of a case.
-
-        Parameters
-        ----------
-        case : str
-        lines : list of KnownTime
-        """
-        self._write("known times", case, [asdict(line) for line in lines])
-
-    def known_times(self) -> dict[str, list[KnownTime]]:
-        """What is known of the task of each case."""
-        try:
-            return {
-                case: [KnownTime(**line) for line in lines]
-                for case, lines in self._documents("known times").items()
-            }
-        except TypeError as error:
-            raise InputError(f"{self.file}: not a table of known times: {error}") from None
-
-    def write_instance(self, name: str, data: dict[str, Any]) -> None:
-        """Keep what is known of an instance, as plain data.
-
-        Parameters
-        ----------
-        name : str
-        data : dict
-            Ready for strict JSON.
-        """
-        self._write("instance", name, data)
-
-    def instances(self) -> dict[str, dict[str, Any]]:
-        """Instances by name, as plain data."""
-        return self._documents("instance")
-
-    def write_audit(self, paper: str, made_of: Mapping[str, str], audits: list[dict[str, Any]]) -> None:
-        """Keep the audits of a paper and its variants.
-
-        Parameters
-        ----------
-        paper : str
-        made_of : mapping of str to str
-            Digest of the paper's text, versions and machine.
-        audits : list of dict
-            As `compare.audit.Audit.to_json` gives them.
-        """
-        self._write("audit", paper, {**made_of, "audits": audits})
-
-    def audits(self) -> dict[str, dict[str, Any]]:
-        """By paper: what its audit was made of, and ``audits``, a list."""
-        return self._documents("audit")
-
     # --- the database -----------------------------------------------------------------------------
-
-    @contextmanager
-    def _reading(self) -> Iterator[sqlite3.Connection]:
-        """The connection; a value that does not fit becomes one line."""
-        with self.database.reading() as connection:
-            try:
-                yield connection
-            except ValueError as error:
-                raise InputError(f"{self.file}: {error}") from None
 
     def _read(self, function: Callable[[sqlite3.Connection, int | None], T], nothing: T) -> T:
         """What a function of connection and plan reads; ``nothing`` if there is no file."""
@@ -331,10 +220,3 @@ class Store:
     def _plan_of(self, connection: sqlite3.Connection) -> int | None:
         """The plan of this object, else the one that was used last."""
         return makers.last_plan(connection) if self._plan is None else self._plan
-
-    def _documents(self, kind: str) -> dict[str, Any]:
-        return self._read(lambda connection, _: documents.documents(connection, kind), {})
-
-    def _write(self, kind: str, name: str, data: Any) -> None:
-        with self.database.writing() as connection:
-            documents.write_document(connection, kind, name, data)

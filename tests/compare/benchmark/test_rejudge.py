@@ -17,7 +17,8 @@ from hypothesis import strategies as st
 from compare.benchmark.ladders import LadderRecord, ladder_record
 from compare.benchmark.objective import CODINGS
 from compare.benchmark.records.rejudge import exact_extent, judged_again
-from compare.benchmark.records.rows import BoundProof, Row, RowStatus, csv_text, read_csv
+from compare.benchmark.records.rows import BoundProof, Row, RowStatus
+from compare.benchmark.records.store import Store
 from compare.benchmark.statistics import bound_of, summaries
 from formulations import FAMILIES, Problem, check, load
 
@@ -65,14 +66,13 @@ def test_honest_rows_hold(rows: list[Row], problems: Any, ladders: Any) -> None:
 def test_a_planted_line_is_shown_as_a_fault_with_its_reason(
     rows: list[Row], problems: Any, ladders: Any, tmp_path: Any
 ) -> None:
-    file = tmp_path / "rows.csv"
-    file.write_text(csv_text(rows))
+    store = Store(tmp_path)
+    store.add_all((row, []) for row in rows)
     planted = replace(
         rows[0], swarm="evil:swarm", seed=7, seconds=1.0, gap=-0.7, status=RowStatus.ok, claimed=1.0
     )
-    with file.open("a") as lines:
-        lines.write(csv_text([planted], header=False))
-    found = judged_again(read_csv(file), problems, ladders)
+    store.add_all([(planted, [])])
+    found = judged_again(store.rows(), problems, ladders)
     assert found[:-1] == rows
     assert reason(found[-1]).startswith("it states 1 s, its durations add up to ")
     (summary,) = [s for s in summaries(found).values() if s.swarm == "evil:swarm"]

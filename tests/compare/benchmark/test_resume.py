@@ -21,7 +21,7 @@ from compare.benchmark.records.provenance import code_digest
 from compare.benchmark.records.store import Store
 from compare.benchmark.run import climb, swarm
 from compare.benchmark.statistics import summaries
-from formulations import Problem, load
+from formulations import InputError, Problem, load
 
 PROBLEMS = {"cobot": load("cobot")}
 
@@ -175,6 +175,24 @@ def test_an_interrupt_leaves_the_table_of_what_was_finished(
     swarm(pool, plan(), PROBLEMS, store)  # the rest; the table has the order of the plan
     with store.rows_file.open(encoding="utf-8", newline="") as lines:
         assert [line["seed"] for line in csv.DictReader(lines)] == ["0", "1", "2", "3"]
+
+
+def test_a_cell_that_another_machine_began_is_not_pooled_unless_that_is_allowed(
+    pool: Executor, store: Store
+) -> None:
+    swarm(pool, plan(seeds=2), PROBLEMS, store)
+    store.close()
+    with sqlite3.connect(store.file) as other:
+        other.execute("UPDATE machines SET machine = 'a cluster'")
+    other.close()
+    swarm(pool, plan(seeds=2), PROBLEMS, store)  # nothing is left to be run here
+    with pytest.raises(InputError, match=r"another machine \(a cluster; this is .*--machines"):
+        swarm(pool, plan(seeds=3), PROBLEMS, store)
+    assert len(store.rows()) == 2
+    swarm(pool, plan(seeds=3), PROBLEMS, store, allow=("machine",))
+    assert [row.machine == "a cluster" for row in store.rows()] == [True, True, False]
+    with pytest.raises(InputError, match="two machines cannot be pooled"):
+        summaries(store.rows())
 
 
 def test_what_was_proved_once_is_not_proved_again(

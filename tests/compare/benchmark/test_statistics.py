@@ -17,10 +17,10 @@ def test_a_summary_counts_every_row_and_leaves_none_out() -> None:
     row = graded(load("sr4c"), 4.7, "published", "random", 0, 30).row
     rows = [
         replace(
-            row, case="c", swarm="s", gap=gap, claimed_gap=gap, keeps_limits=kept,
+            row, case="c", swarm="s", seed=seed, gap=gap, claimed_gap=gap, keeps_limits=kept,
             stretch=1.2 if kept is False else 1.0, seconds=gap,
         )
-        for gap, kept in ((0.1, True), (0.3, False), (0.2, False), (None, None))
+        for seed, (gap, kept) in enumerate(((0.1, True), (0.3, False), (0.2, False), (None, None)))
     ]  # fmt: skip
     found = summaries(rows)["c", "published", "s"]
     assert (found.seeds, found.unsolved, found.breaking) == (4, 1, 2)

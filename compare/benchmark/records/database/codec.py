@@ -37,10 +37,11 @@ def encoded(value: Any) -> Any:
     """
     if isinstance(value, str):
         return one_line(value)
+    for number in value if isinstance(value, tuple) else (value,):
+        if isinstance(number, float) and not math.isfinite(number):
+            raise ValueError(f"{number!r} is not a finite number")
     if isinstance(value, tuple):
         return np.array(value, dtype=_FLOATS).tobytes()
-    if isinstance(value, float) and not math.isfinite(value):
-        raise ValueError(f"{value!r} is not a finite number")
     if isinstance(value, bool):
         return int(value)
     return float(value) if isinstance(value, float) else value

@@ -112,7 +112,7 @@ def write_proof(connection: sqlite3.Connection, key: ProofKey, data: Any) -> Non
         Ready for strict JSON.
     """
     connection.execute(
-        "INSERT OR IGNORE INTO proofs (problem, versions, code, certified, data) VALUES (?, ?, ?, ?, ?)",
+        "INSERT OR IGNORE INTO proofs (problem, versions, code, asked, data) VALUES (?, ?, ?, ?, ?)",
         (*key, json.dumps(data, allow_nan=False)),
     )
 
@@ -131,6 +131,6 @@ def proof(connection: sqlite3.Connection, key: ProofKey) -> Any:
         None if there are none.
     """
     found = connection.execute(
-        "SELECT data FROM proofs WHERE problem = ? AND versions = ? AND code = ? AND certified = ?", key
+        "SELECT data FROM proofs WHERE problem = ? AND versions = ? AND code = ? AND asked = ?", key
     ).fetchone()
     return None if found is None else json.loads(found[0])

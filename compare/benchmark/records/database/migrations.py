@@ -32,10 +32,19 @@ CREATE TABLE makers_2 (
 """
 
 
+_PROOFS_2 = """
+CREATE TABLE proofs (
+  problem TEXT NOT NULL, versions TEXT NOT NULL, code TEXT NOT NULL, asked TEXT NOT NULL,
+  data TEXT NOT NULL, PRIMARY KEY (problem, versions, code, asked)
+) STRICT
+"""
+
+
 def _tracks_and_coordinates(connection: sqlite3.Connection) -> None:
     """1 -> 2: track and coordinates; a budget counts the evaluations of the whole motion.
 
-    Version 1 gave each joint of the published coding the whole budget, as the papers do.
+    Version 1 gave each joint of the published coding the whole budget, as the papers do. Its proofs were
+    made by the code of its time, which no present code asks for.
     """
     joints = {
         maker: len(unpacked(data))
@@ -66,6 +75,8 @@ def _tracks_and_coordinates(connection: sqlite3.Connection) -> None:
         digest = hashlib.sha256(json.dumps([*values, salt]).encode()).hexdigest()[:24]
         marks = ", ".join("?" * (2 + len(values)))
         connection.execute(f"INSERT INTO makers_2 VALUES ({marks})", (number, digest, *values))
+    connection.execute("DROP TABLE proofs")
+    connection.execute(_PROOFS_2)
     connection.execute("DROP TABLE makers")
     connection.execute("ALTER TABLE makers_2 RENAME TO makers")
     connection.execute(_VIEW_2)

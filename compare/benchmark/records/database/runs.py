@@ -212,6 +212,30 @@ def left_of_plan(connection: sqlite3.Connection, plan: int) -> list[int]:
     return [place for (place,) in lines]
 
 
+def other_machines(connection: sqlite3.Connection, plan: int | None, machine: str) -> list[str]:
+    """Return the machines that made part of a cell of which runs are left.
+
+    Parameters
+    ----------
+    connection : sqlite3.Connection
+    plan : int or None
+    machine : str
+        The one that would make the rest.
+
+    Returns
+    -------
+    list of str
+    """
+    lines = connection.execute(
+        "WITH mine AS (SELECT p.maker, r.machine FROM planned p LEFT JOIN runs r"
+        " ON r.maker = p.maker AND r.seed = p.seed WHERE p.plan = ?)"
+        " SELECT DISTINCT c.machine FROM mine JOIN machines c ON c.id = mine.machine WHERE c.machine <> ?"
+        " AND mine.maker IN (SELECT maker FROM mine WHERE machine IS NULL) ORDER BY c.machine",
+        (plan, machine),
+    )
+    return [name for (name,) in lines]
+
+
 def outside_of_plan(connection: sqlite3.Connection, plan: int) -> dict[int, int]:
     """Return how many stored runs a plan does not ask for.
 

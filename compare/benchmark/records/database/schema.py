@@ -99,8 +99,8 @@ CREATE TABLE planned (
   PRIMARY KEY (plan, place)
 ) STRICT, WITHOUT ROWID;
 CREATE TABLE proofs (
-  problem TEXT NOT NULL, versions TEXT NOT NULL, code TEXT NOT NULL, certified INTEGER NOT NULL,
-  data TEXT NOT NULL, PRIMARY KEY (problem, versions, code, certified)
+  problem TEXT NOT NULL, versions TEXT NOT NULL, code TEXT NOT NULL, asked TEXT NOT NULL,
+  data TEXT NOT NULL, PRIMARY KEY (problem, versions, code, asked)
 ) STRICT;
 CREATE TABLE documents (
   kind TEXT NOT NULL, name TEXT NOT NULL, data TEXT NOT NULL, PRIMARY KEY (kind, name)

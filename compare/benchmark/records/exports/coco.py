@@ -17,7 +17,14 @@ import zipfile
 from collections.abc import Iterable, Iterator
 from pathlib import Path
 
-from compare.benchmark.records.exports.curves import Curve, Task, cells, file_name, made_by, tasks
+from compare.benchmark.records.exports.curves import (
+    SearchCurve,
+    SearchTask,
+    cells,
+    file_name,
+    made_by,
+    tasks,
+)
 from compare.benchmark.records.store import Store
 from compare.files import write_text
 
@@ -63,7 +70,7 @@ def write_coco(store: Store, folder: Path) -> Iterable[Path]:
     return [target]
 
 
-def _places(found: Iterable[Task]) -> dict[Task, tuple[str, int]]:
+def _places(found: Iterable[SearchTask]) -> dict[SearchTask, tuple[str, int]]:
     """Folder and number of the function of each task."""
     places = {}
     count = {"whole": 0, "joints": 0}
@@ -75,7 +82,9 @@ def _places(found: Iterable[Task]) -> dict[Task, tuple[str, int]]:
     return places
 
 
-def _files(name: str, number: int, task: Task, curves: list[Curve]) -> Iterator[tuple[str, str]]:
+def _files(
+    name: str, number: int, task: SearchTask, curves: list[SearchCurve]
+) -> Iterator[tuple[str, str]]:
     """The three files of a task: index, data by target, data by number of evaluations."""
     data = f"data_f{number}/bbobexp_f{number}_DIM{task.dimension}"
     ends = [f"1:{int(c.evaluations[-1])}|{_shown(c.gaps.min())}" for c in curves]

@@ -25,7 +25,7 @@ from formulations.problem.arrays import Array
 
 
 @dataclass(frozen=True)
-class Task:
+class SearchTask:
     """What is searched: a case, or one of its joints alone.
 
     number: from 1, in the order of the cases; joint: from 0, -1 for all at once; dimension: number of
@@ -45,7 +45,7 @@ class Task:
 
 
 @dataclass(frozen=True)
-class Curve:
+class SearchCurve:
     """One search: its row, evaluations from 1 on, and the best gap after each of them.
 
     Gaps are infinite while nothing feasible is found. The last entry is that of the last evaluation.
@@ -56,7 +56,7 @@ class Curve:
     gaps: Array
 
 
-def tasks(store: Store) -> dict[tuple[str, int], Task]:
+def tasks(store: Store) -> dict[tuple[str, int], SearchTask]:
     """Return every task of a comparison whose optimum is known.
 
     Parameters
@@ -65,14 +65,16 @@ def tasks(store: Store) -> dict[tuple[str, int], Task]:
 
     Returns
     -------
-    dict of (case, joint) to Task
+    dict of (case, joint) to SearchTask
     """
-    found: dict[tuple[str, int], Task] = {}
+    found: dict[tuple[str, int], SearchTask] = {}
     ladders = store.ladders()
     for case, problem in store.problems().items():
         for joint, optimum in _optima(ladders.get(case)):
             if optimum is not None:
-                found[case, joint] = Task(len(found) + 1, case, joint, problem.n_segments, optimum)
+                found[case, joint] = SearchTask(
+                    len(found) + 1, case, joint, problem.n_segments, optimum
+                )
     return found
 
 
@@ -82,7 +84,7 @@ def _optima(ladder: LadderRecord | None) -> Iterator[tuple[int, float | None]]:
         yield from enumerate(ladder.get("alone", []))
 
 
-def cells(store: Store) -> Iterator[tuple[str, Task, list[Curve]]]:
+def cells(store: Store) -> Iterator[tuple[str, SearchTask, list[SearchCurve]]]:
     """Give the searches of cell after cell of the plan; memory holds one cell at a time.
 
     Parameters
@@ -93,8 +95,8 @@ def cells(store: Store) -> Iterator[tuple[str, Task, list[Curve]]]:
     ------
     name : str
         The swarm and the variant of its coding.
-    task : Task
-    curves : list of Curve
+    task : SearchTask
+    curves : list of SearchCurve
         One for each seed.
 
     Raises
@@ -106,7 +108,7 @@ def cells(store: Store) -> Iterator[tuple[str, Task, list[Curve]]]:
     rows = require_pooled(store.iterate_rows(), allow=store.settings().allow)
     results = zip(rows, store.traces(), strict=True)
     for _, group in groupby(results, lambda one: [getattr(one[0], name) for name in CELL]):
-        by_task: dict[Task, list[Curve]] = {}
+        by_task: dict[SearchTask, list[SearchCurve]] = {}
         for row, (_, traces) in group:
             for trace in traces:
                 task = known.get((row.case, trace.joint))
@@ -119,12 +121,12 @@ def cells(store: Store) -> Iterator[tuple[str, Task, list[Curve]]]:
             yield f"{row.swarm} {row.variant}", task, curves
 
 
-def _curve(row: Row, task: Task, evaluations: list[int], best: list[float]) -> Curve:
+def _curve(row: Row, task: SearchTask, evaluations: list[int], best: list[float]) -> SearchCurve:
     gaps = np.maximum(np.array(best) / task.optimum - 1.0, 0.0)  # below is rounding
     at = np.array(evaluations)
     if at[0] > 1:  # readers tell where a run begins by its first evaluation
         at, gaps = np.insert(at, 0, 1), np.insert(gaps, 0, np.inf)
-    return Curve(row, at, gaps)
+    return SearchCurve(row, at, gaps)
 
 
 def file_name(text: str) -> str:

@@ -14,7 +14,7 @@ import shutil
 from collections.abc import Iterable
 from pathlib import Path
 
-from compare.benchmark.records.exports.curves import Curve, Task, cells, file_name, made_by
+from compare.benchmark.records.exports.curves import SearchCurve, SearchTask, cells, file_name, made_by
 from compare.benchmark.records.store import Store
 from compare.files import write_text
 
@@ -41,7 +41,7 @@ def write_ioh(store: Store, folder: Path) -> Iterable[Path]:
     return [target]
 
 
-def _write(folder: Path, name: str, task: Task, curves: list[Curve]) -> None:
+def _write(folder: Path, name: str, task: SearchTask, curves: list[SearchCurve]) -> None:
     where = f"f{task.number}_{file_name(task.name)}"
     data = f"data_{where}/IOHprofiler_f{task.number}_DIM{task.dimension}.dat"
     (folder / data).parent.mkdir(parents=True, exist_ok=True)

@@ -1,0 +1,156 @@
+"""``kill -9`` at random moments of a comparison, resumed each time: the rows are those of an unbroken one.
+
+Ten kills by default, half of them with one worker and half with two;
+``TIMEBOUND_KILLS=100 pytest tests/compare/benchmark/test_kills.py`` makes a hundred.
+"""
+
+from __future__ import annotations
+
+import contextlib
+import csv
+import os
+import random
+import signal
+import sqlite3
+import subprocess
+import sys
+import time
+from concurrent.futures import ThreadPoolExecutor
+from pathlib import Path
+from typing import Any
+
+import pytest
+from commands_run import ROOT
+from graded_runs import without_times
+
+from compare.benchmark.ladders import LadderRecord
+from compare.benchmark.plan import runs
+from compare.benchmark.records.rows import COLUMNS, TIMING_COLUMNS
+from compare.benchmark.records.store import Store
+from compare.benchmark.run import swarm, workers
+from formulations import load
+
+KILLS = int(os.environ.get("TIMEBOUND_KILLS", "10"))
+PROBLEMS = {"cobot": load("cobot")}
+PLAN = runs(PROBLEMS, swarms=["pso", "whale"], seeds=60, evaluations=1500)
+
+
+def compared(folder: Path, jobs: int) -> None:
+    """The comparison, as ``timebound all --resume`` makes it, but for bounds and pictures."""
+    store = Store(folder)
+    rung = {
+        "seconds": 3.3,
+        "kind": "upper",
+        "status": "ok",
+        "certified": False,
+        "runtime": 0.1,
+        "note": "",
+    }
+    rungs = {"family": rung, "family_lower": {**rung, "seconds": None}}
+    ladder: Any = {"problem": "cobot", "durations": {}, "versions": {}, "ladder": rungs}
+    known: LadderRecord = ladder
+    store.write_ladder("cobot", known)
+    with ThreadPoolExecutor(1) if jobs == 0 else workers(jobs) as pool:
+        swarm(pool, PLAN, PROBLEMS, store)
+    store.close()
+
+
+@pytest.fixture(scope="module")
+def unbroken(tmp_path_factory: pytest.TempPathFactory) -> list[dict[str, Any]]:
+    folder = tmp_path_factory.mktemp("unbroken")
+    compared(folder, 0)
+    return contents(folder)
+
+
+def contents(folder: Path) -> list[dict[str, Any]]:
+    """Rows with their traces, measured times aside; the table beside the store holds the same rows."""
+    store = Store(folder)
+    rows, traces = store.rows(), dict(store.traces())
+    with store.rows_file.open(encoding="utf-8", newline="") as lines:
+        table = list(csv.DictReader(lines))
+    assert [tuple(line[name] for name in COLUMNS) for line in table] == [
+        tuple(row.to_cells()) for row in rows
+    ]
+    store.close()
+    return [without_times(row) | {"traces": traces.pop(row.key)} for row in rows]
+
+
+def holds(folder: Path, unbroken: list[dict[str, Any]]) -> int:
+    """How many runs a killed comparison has left; each is whole, and as it must be."""
+    if not (folder / "results.sqlite").exists():
+        return 0
+    with contextlib.closing(sqlite3.connect(folder / "results.sqlite")) as made:
+        assert made.execute("PRAGMA integrity_check").fetchall() == [("ok",)]
+    store = Store(folder)
+    rows, traces = store.rows(), dict(store.traces())
+    store.close()
+    expected = {(row["coding"], row["track"], row["swarm"], row["seed"]): row for row in unbroken}
+    for row in rows:
+        known = expected[row.coding, row.track, row.swarm, row.seed]
+        assert without_times(row) | {"traces": traces[row.key]} == known
+    assert len(traces) == len(rows)
+    return len(rows)
+
+
+@pytest.mark.slow
+@pytest.mark.skipif(sys.platform == "win32", reason="kills a group of processes")
+@pytest.mark.parametrize("jobs", [1, 2])
+def test_killed_at_random_moments_and_resumed(
+    jobs: int, unbroken: list[dict[str, Any]], tmp_path: Path
+) -> None:
+    assert len(unbroken) == len(PLAN) == 480
+    assert "traces" not in TIMING_COLUMNS
+    chance = random.Random(jobs)
+    kills, finished, moments = 0, 0, []
+    while kills < KILLS // 2:
+        folder = tmp_path / str(finished)
+        folder.mkdir(exist_ok=True)
+        before = holds(folder, unbroken)
+        process = start(folder, jobs)
+        if chance.random() < 0.8:  # while runs are written; else wherever it is
+            wait_for_a_run(process, folder, before)
+        with contextlib.suppress(subprocess.TimeoutExpired):
+            process.wait(chance.uniform(0.0, 2.0))
+        if process.poll() is None:
+            os.killpg(process.pid, signal.SIGKILL)
+            process.wait()
+            kills += 1
+            moments.append(holds(folder, unbroken) - before)
+        else:
+            assert process.returncode == 0
+            assert contents(folder) == unbroken
+            finished += 1
+    process = start(folder, jobs)
+    assert process.wait(300) == 0
+    assert contents(folder) == unbroken
+    print(
+        f"{kills} kills, {jobs} workers: runs written before each: {moments}; {finished + 1} finished"
+    )
+
+
+def wait_for_a_run(process: subprocess.Popen[bytes], folder: Path, before: int) -> None:
+    """Wait until the comparison has written a run, or has ended."""
+    while process.poll() is None:
+        with (
+            contextlib.suppress(sqlite3.OperationalError),  # no file yet, or no table
+            contextlib.closing(
+                sqlite3.connect(f"file:{folder}/results.sqlite?mode=ro", uri=True)
+            ) as made,
+        ):
+            if made.execute("SELECT count(*) FROM runs").fetchone()[0] > before:
+                return
+        time.sleep(0.02)
+
+
+def start(folder: Path, jobs: int) -> subprocess.Popen[bytes]:
+    """The comparison in a group of processes of its own."""
+    paths = os.pathsep.join(map(str, (ROOT, ROOT / "tests", Path(__file__).parent)))
+    return subprocess.Popen(
+        [sys.executable, __file__, str(folder), str(jobs)],
+        cwd=ROOT, env={**os.environ, "PYTHONPATH": paths}, start_new_session=True,
+        stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL,
+    )  # fmt: skip
+
+
+if __name__ == "__main__":
+    compared(Path(sys.argv[1]), int(sys.argv[2]))
