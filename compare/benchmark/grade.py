@@ -41,6 +41,8 @@ class Run:
         Which rules it follows; the plan has counted the budget by them.
     coordinates : Coordinates
         In which the swarm sees the durations.
+    constants : tuple of (str, number)
+        Constants of the swarm in place of the published ones, in the track ``tuned``.
     """
 
     case: str
@@ -52,6 +54,7 @@ class Run:
     time_limit: float | None = None
     track: Track = Track.equal
     coordinates: Coordinates = Coordinates.printed
+    constants: tuple[tuple[str, float | int], ...] = ()
 
     @property
     def key(self) -> RunKey:
@@ -124,7 +127,7 @@ def grade(
         objectives = [Objective(problem, stretch=run.coding == "stretched")]
     lo, hi = search_box(problem)
     swarm = algorithm(run.swarm)
-    made_by = provenance_of(run.swarm, problem, run.population, run.time_limit)
+    made_by = provenance_of(run.swarm, problem, run.population, run.time_limit, run.constants)
     search = swarm.search(made_by.time_limit)
     results = [
         minimise(
@@ -132,7 +135,7 @@ def grade(
             *seen_in(run.coordinates, objective, lo, hi),
             budget=budget,
             seed=_seed(run, joint),
-            **parameters_of(swarm, run.population),
+            **parameters_of(swarm, run.population, run.constants),
         )
         for joint, objective, budget in zip(
             joints, objectives, shares(run.budget, len(joints)), strict=True

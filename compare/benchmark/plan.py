@@ -36,6 +36,7 @@ def runs(
     evaluations: int | None = None,
     factor: int = 1,
     seconds: float | None = None,
+    constants: Mapping[str, Mapping[str, float | int]] | None = None,
 ) -> list[Run]:
     """List the runs of one comparison, in a fixed order.
 
@@ -59,6 +60,8 @@ def runs(
         Multiplies every budget.
     seconds : float, optional [s]
         Time limit of a search in a process of its own, for every swarm.
+    constants : mapping of str to mapping, optional
+        Tuned constants by swarm, for the track ``tuned``; of every swarm, if there is that track.
 
     Returns
     -------
@@ -92,6 +95,7 @@ def runs(
                 seconds,
                 track,
                 seen,
+                tuple((constants or {})[swarm].items()) if track is Track.tuned else (),
             )
             for coding in (codings if codings is not None else CODINGS)
             for track in tracks

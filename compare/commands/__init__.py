@@ -87,6 +87,11 @@ _ALL = (
         "timebound all --cases sr4c,ur5 --swarms pso,mipso --seeds 30 --out report",
     ),
     Command(
+        "tune", "compare.commands.tune:tune_swarms", COMPARISON,
+        "Tune the constants of swarms on the open instances, with equal effort.",
+        "timebound tune --swarms pso,whale --trials 60 --out tuned",
+    ),
+    Command(
         "report", "compare.commands.report:report", COMPARISON,
         "Draw the report of a comparison again from its stored rows.",
         "timebound report report",

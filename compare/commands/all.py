@@ -22,6 +22,7 @@ from compare.benchmark.records.settings import Settings, budget_words
 from compare.benchmark.records.store import Store
 from compare.benchmark.run import audits, climb, measured, swarm, tabulate_known_times, warm_up, workers
 from compare.benchmark.suite import SIZE, Instance, chosen, suite
+from compare.benchmark.tuning.constants import constants_for
 from compare.commands import DONE, FAILED
 from compare.commands.benchmark.seeds import SeedList
 from compare.commands.options import (
@@ -67,6 +68,7 @@ def compare_all(
     codings: Codings = None,
     tracks: Tracks = None,
     coordinates: SeenIn = (Coordinates.printed,),
+    constants: Annotated[str | None, Parameter(metavar="FILE")] = None,
     seeds: SeedList = None,
     budget: Annotated[int | None, Parameter(validator=positive)] = None,
     budget_factor: Annotated[int, Parameter(validator=positive)] = 1,
@@ -88,6 +90,8 @@ def compare_all(
         Grade on the benchmark's 60 instances instead; with --full by 31 seeds.
     instances
         The same on the first N instances of an endless list; the first 60 are the suite.
+    constants
+        What timebound tune wrote, for --tracks tuned; the shipped constants if left out.
     apart
         Run every search in a process of its own, for at most so many seconds of the swarm's work.
     seeds
@@ -114,12 +118,14 @@ def compare_all(
 
         wanted = list(found_swarms(",".join([*wanted, *RIVALS])))
     problems = {one.name: one.problem for one in graded_on}
+    followed = tracks or ((Track.equal,) if on_suite else (Track.equal, Track.paper))
     planned = runs(
         problems,
         size=size,
         swarms=wanted,
         codings=list(codings or CODINGS),
-        tracks=tracks or ((Track.equal,) if on_suite else (Track.equal, Track.paper)),
+        tracks=followed,
+        constants=constants_for(wanted, constants) if Track.tuned in followed else None,
         coordinates=coordinates,
         seeds=seeds or SEEDS["full" if full else size],
         evaluations=budget,

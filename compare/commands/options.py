@@ -285,7 +285,8 @@ Codings = Annotated[
 Tracks = Annotated[
     tuple[Any, ...] | None,
     _words_of("Track", "--tracks", "Rules: equal (the joints of the published coding share the budget),"
-              " paper (the papers' own: each of them has all of it)."),
+              " paper (the papers' own: each of them has all of it), tuned (constants tuned on open"
+              " instances)."),
 ]  # fmt: skip
 SeenIn = Annotated[
     tuple[Any, ...],

@@ -40,5 +40,5 @@ def mismatch(maker: Mapping[str, Any], runs: Sequence[Run], problems: Mapping[st
         if not same:
             return reason
     run = same[0]
-    wanted = provenance_of(run.swarm, problems[run.case], run.population, run.time_limit)
+    wanted = provenance_of(run.swarm, problems[run.case], run.population, run.time_limit, run.constants)
     return wanted.difference(maker) or "a seed that is not asked for"

@@ -10,7 +10,7 @@ import json
 import os
 import platform
 import sysconfig
-from collections.abc import Iterator, Mapping
+from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass, fields
 from functools import lru_cache
 from pathlib import Path
@@ -73,7 +73,11 @@ _DIFFERENCES = {
 
 
 def provenance_of(
-    swarm: str, problem: Problem, population: int, time_limit: float | None
+    swarm: str,
+    problem: Problem,
+    population: int,
+    time_limit: float | None,
+    constants: Sequence[tuple[str, Any]] = (),
 ) -> Provenance:
     """Return what a run of this swarm on this problem depends on here and now.
 
@@ -86,6 +90,8 @@ def provenance_of(
     time_limit : float or None [s]
         Of a swarm in a process of its own. None: the swarm runs in this process if it is trusted, else
         in its own for at most `metaheuristics.entry.TIME_LIMIT`.
+    constants : sequence of (str, value)
+        Constants of the swarm in place of the published ones.
 
     Returns
     -------
@@ -96,7 +102,7 @@ def provenance_of(
         time_limit = TIME_LIMIT
     return Provenance(
         library=found.versions,
-        parameters=parameters_text(parameters_of(found, population)),
+        parameters=parameters_text(parameters_of(found, population, constants)),
         code=code_digest(swarm),
         isolated=time_limit is not None,
         time_limit=time_limit,
@@ -105,13 +111,17 @@ def provenance_of(
     )
 
 
-def parameters_of(swarm: Algorithm, population: int) -> dict[str, Any]:
+def parameters_of(
+    swarm: Algorithm, population: int, constants: Sequence[tuple[str, Any]] = ()
+) -> dict[str, Any]:
     """Return the parameters of a swarm, with this population if it has one.
 
     Parameters
     ----------
     swarm : Algorithm
     population : int
+    constants : sequence of (str, value)
+        In place of the published ones.
 
     Returns
     -------
@@ -121,7 +131,7 @@ def parameters_of(swarm: Algorithm, population: int) -> dict[str, Any]:
     parameters = dict(swarm.parameters)
     if "population" in parameters:
         parameters["population"] = population
-    return parameters
+    return parameters | dict(constants)
 
 
 def parameters_text(parameters: dict[str, Any]) -> str:

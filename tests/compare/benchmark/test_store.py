@@ -59,8 +59,8 @@ def test_every_column_of_a_row_has_one_place() -> None:
 
 def test_what_a_plan_asks_for_is_what_a_run_writes() -> None:
     problem = load("cobot")
-    for coding in ("published", "stretched"):
-        run = Run("cobot", coding, "pso", 3, 60, 20)
+    runs = [Run("cobot", coding, "pso", 3, 60, 20) for coding in ("published", "stretched")]
+    for run in (*runs, replace(runs[0], constants=(("w", 0.5),)), replace(runs[0], time_limit=9.0)):
         row = grade(run, problem, 3.3).row
         assert maker_of(run, problem) == {name: getattr(row, name) for name in MAKER_COLUMNS}
 

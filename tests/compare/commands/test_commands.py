@@ -89,6 +89,8 @@ def test_an_unknown_option_is_one_line(name: str, capsys: pytest.CaptureFixture[
 NEED_A_FILE = ("solve", "plan", "check", "split", "motion_picture", "check_certificate", "report")
 
 BAD = {
+    "grade": (["psoo"], "'psoo' is not known"),
+    "versus": (["pso", "pso"], "pso: is the swarm itself"),
     "new": (["--limits", "joint_limits.yaml"], "--limits: needs a robot (--from-urdf URDF)"),
     "solve": (["nowhere.toml"], "nowhere.toml: no such file"),
     "plan": (["sr4c", "--stop", "soon"], '--stop: unable to convert "soon" into int'),
@@ -99,6 +101,8 @@ BAD = {
     "check_certificate": (["nowhere.json"], "nowhere.json: cannot be read"),
     "all": (["--cases", "sr4d"], "--cases: 'sr4d' is not known; did you mean 'sr4c'?"),
     "report": (["/nowhere"], "/nowhere: holds no comparison"),
+    "merge": (["/nowhere", "/elsewhere"], "/nowhere: holds no comparison"),
+    "export": (["/nowhere", "--csv"], "/nowhere: holds no comparison"),
     "audit": (["nowhere.toml"], "nowhere.toml"),
     "papers": (["sr4x"], "KEY: 'sr4x' is not known; did you mean 'sr4c'?"),
     "table8": (["--runs", "0"], "--runs: 0 is not positive"),

@@ -34,7 +34,7 @@ def maker_of(run: Run, problem: Problem) -> dict[str, Any]:
     dict
         The columns ``MAKER_COLUMNS`` of the row that ``grade`` would give.
     """
-    made_by = provenance_of(run.swarm, problem, run.population, run.time_limit)
+    made_by = provenance_of(run.swarm, problem, run.population, run.time_limit, run.constants)
     known = asdict(run) | asdict(made_by) | {"family": problem.family}
     return {name: known[name] for name in MAKER_COLUMNS}
 
