@@ -9,9 +9,10 @@ from matplotlib.figure import Figure
 
 from compare.grading.contest import DuelOutcome
 from compare.grading.grading import Grading
-from compare.grading.standing import printed
+from compare.grading.standing import costs, printed
 from compare.report.style import BLACK, BLUE, GREEN, GREY, ORANGE, PURPLE, SKY, VERMILION, styled
 from compare.statistics.equivalence import NEGLIGIBLE
+from compare.statistics.instances import performance_profile
 from compare.statistics.needed import needed
 from compare.statistics.runtimes import fixed_target_ecdf
 
@@ -128,5 +129,37 @@ def ranks_figure(found: Grading) -> Figure:
     return figure
 
 
-FIGURES = {"outcomes": outcome_figure, "targets": ecdf_figure, "ranks": ranks_figure}
+@styled
+def profile_figure(found: Grading) -> Figure:
+    """Draw performance profiles: the share of instances on which a swarm needs at most r times the least.
+
+    Parameters
+    ----------
+    found : Grading
+
+    Returns
+    -------
+    Figure
+    """
+    swarms = [place.swarm for place in found.standing.places]
+    profile = performance_profile(costs(found.cells, swarms))
+    figure, axes = plt.subplots(figsize=(8.0, 3.2))
+    for (colour, line), swarm, share in zip(_LINES * 9, swarms, profile.share, strict=False):
+        axes.step(profile.ratios, share, line, where="post", color=colour, lw=1.5, label=swarm)
+    axes.set_xscale("log")
+    axes.set_ylim(0.0, 1.02)
+    axes.set_xlabel("expected evaluations until a gap of 0.1 %, over those of the fastest swarm [1]")
+    axes.set_ylabel("share of instances [1]")
+    axes.grid(alpha=0.25, lw=0.5)
+    axes.set_title("On how many instances each is nearly as fast as the fastest", loc="left")
+    axes.legend(fontsize=8, frameon=False, loc="center left", bbox_to_anchor=(1.0, 0.5))
+    return figure
+
+
+FIGURES = {
+    "outcomes": outcome_figure,
+    "targets": ecdf_figure,
+    "ranks": ranks_figure,
+    "profiles": profile_figure,
+}
 """Every picture of the page by its name."""

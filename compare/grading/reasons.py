@@ -50,6 +50,8 @@ class Reason:
     def sentence(self) -> str:
         """What the feature says."""
         more = "larger" if self.correlation > 0 else "smaller"
+        if {value for value, *_ in self.values} == {0.0, 1.0}:
+            return f"Its advantage is {more} with {self.feature} than without (p = {self.p:.1g})."
         return (
             f"Its advantage is the {more}, the larger the {self.feature} (rank correlation"
             f" {self.correlation:.2f}, p = {self.p:.1g})."
@@ -74,8 +76,8 @@ def features_of(problem: Problem, described: Features) -> dict[str, float]:
     found = {words: described.get(name) for name, words in NAMES.items()}
     return {
         **{words: np.nan if value is None else float(value) for words, value in found.items()},
-        "jerk limits (0 or 1)": float(np.isfinite(limits.jerk).any()),
-        "position limits (0 or 1)": float(limits.has_position),
+        "jerk limits": float(np.isfinite(limits.jerk).any()),
+        "position limits": float(limits.has_position),
     }
 
 

@@ -84,6 +84,28 @@ class Ranking:
         return next(place for place in self.places if place.swarm == swarm)
 
 
+def costs(cells: Mapping[CellKey, Cell], swarms: Sequence[str]) -> np.ndarray:
+    """Return the expected running time of each swarm on each instance, until `TARGET`.
+
+    Parameters
+    ----------
+    cells : mapping of (instance, swarm, coordinates) to Cell
+    swarms : sequence of str
+
+    Returns
+    -------
+    ndarray, shape (n_instances, n_swarms)
+        Evaluations; infinite where no run reached the target.
+    """
+    by_swarm = [printed(cells, swarm) for swarm in swarms]
+    return np.array([[_expected(mine[case]) for mine in by_swarm] for case in by_swarm[0]])
+
+
+def _expected(cell: Cell) -> float:
+    hits, spent = _to_target(cell), np.array([float(row.budget) for row in cell.rows])
+    return expected_running_time(hits, spent, seed=0, resamples=1).value
+
+
 def printed(cells: Mapping[CellKey, Cell], swarm: str) -> dict[str, Cell]:
     """Return the cells of a swarm in the printed coordinates, by instance.
 

@@ -4,17 +4,16 @@ from __future__ import annotations
 
 import numpy as np
 import pytest
+from made_cells import cell
+from small_problems import variants
 
 from compare.benchmark.coordinates import seen_in
 from compare.benchmark.objective import Objective, search_box
 from compare.benchmark.protocol import Coordinates
 from compare.grading.cells import Cell
 from compare.grading.zero import DrawnToZero, drawn_to_zero
-from formulations import Problem, load
 from metaheuristics import ALGORITHMS, Task, minimise
 from metaheuristics.driver.task import Moves
-
-from made_cells import cell  # isort: skip
 
 SEEDS = 9
 
@@ -28,20 +27,9 @@ def contracting(task: Task, *, population: int = 20) -> Moves:
         x = task.clip(task.rng.random(x.shape) * (best + task.rng.normal(size=x.shape) * x))
 
 
-def problems() -> dict[str, Problem]:
-    """Variants of a case: limits scaled joint by joint."""
-    base, made = load("sr4c"), {}
-    for k in range(10):
-        scale = np.random.default_rng(k).uniform(0.5, 1.5, base.limits.derivatives.shape)
-        velocity, acceleration, jerk = base.limits.derivatives * scale
-        limits = {"velocity": velocity, "acceleration": acceleration, "jerk": jerk}
-        made[f"p{k}"] = Problem(base.waypoints, limits, family=base.family)
-    return made
-
-
 def moved(search: object) -> DrawnToZero:
     cells: dict[tuple[str, str, Coordinates], Cell] = {}
-    for name, problem in problems().items():
+    for name, problem in variants(10).items():
         objective, (lo, hi) = Objective(problem, stretch=True), search_box(problem)
         for seen in Coordinates:
             task = seen_in(seen, objective, lo, hi)
@@ -50,7 +38,7 @@ def moved(search: object) -> DrawnToZero:
                 for seed in range(SEEDS)
             ]
             cells[name, "it", seen] = cell(np.log10(np.array(runs)))
-    return drawn_to_zero(cells, "it", list(problems()))
+    return drawn_to_zero(cells, "it", list(variants(10)))
 
 
 def test_a_flock_that_contracts_to_zero_is_found() -> None:

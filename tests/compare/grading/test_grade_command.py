@@ -58,7 +58,7 @@ def test_the_documented_swarm_is_graded_and_a_second_call_computes_nothing(
     assert said.out.startswith(found["sentence"])
     page = (mine / "out" / "grade.html").read_text()
     assert re.search(r'<p class="verdict">(.*?)</p>', page, re.DOTALL)[1] == found["sentence"]  # type: ignore[index]
-    assert page.count("data:image/svg+xml;base64") == 3
+    assert page.count("data:image/svg+xml;base64") == 4
 
     def nothing(*_: object, **__: object) -> None:
         raise AssertionError("computed again")
