@@ -126,13 +126,31 @@ def fixed_target_ecdf(hits: ArrayLike) -> Distribution:
     return Distribution(found.quantiles, found.probabilities * scale)
 
 
-def expected_running_time(
-    hits: ArrayLike, spent: ArrayLike, *, seed: int, level: float = 0.95, resamples: int = 2000
-) -> ExpectedTime:
+def mean_running_time(hits: ArrayLike, spent: ArrayLike) -> float:
     """Return the evaluations that restarts would need until the first success, on average.
 
     It is the sum of what all runs spent until they reached the target or ended, over the number of
     runs that reached it: each failure is charged its own budget.
+
+    Parameters
+    ----------
+    hits : ArrayLike, shape (n,)
+        Hitting time of each run for one target; infinite: it failed.
+    spent : ArrayLike, shape (n,)
+        Evaluations of each run.
+
+    Returns
+    -------
+    float
+        Infinite if no run succeeded.
+    """
+    return float(_time_per_success(*_paid(hits, spent)))
+
+
+def expected_running_time(
+    hits: ArrayLike, spent: ArrayLike, *, seed: int, level: float = 0.95, resamples: int = 2000
+) -> ExpectedTime:
+    """Return the mean running time of restarts with its interval.
 
     Parameters
     ----------
@@ -151,17 +169,14 @@ def expected_running_time(
     -------
     ExpectedTime
     """
-    times, budgets = np.asarray(hits, dtype=np.float64), np.asarray(spent, dtype=np.float64)
-    success = np.isfinite(times)
-    paid = np.where(success, times, budgets)
-    value = float(_time_per_success(paid, success.astype(np.float64)))
-    if len(times) < 2 or not success.any():
-        return ExpectedTime(value, value, np.inf, int(success.sum()), len(times))
-    with np.errstate(
-        invalid="ignore"
-    ):  # SciPy takes a standard error too, and some values are infinite
+    paid, success = _paid(hits, spent)
+    value, successes = float(_time_per_success(paid, success)), int(success.sum())
+    if len(paid) < 2 or not successes:
+        return ExpectedTime(value, value, np.inf, successes, len(paid))
+    # SciPy takes a standard error too, and a resample without a success is infinite
+    with np.errstate(invalid="ignore"):
         made = stats.bootstrap(
-            (paid, success.astype(np.float64)),
+            (paid, success),
             _time_per_success,
             paired=True,
             vectorized=True,
@@ -170,9 +185,17 @@ def expected_running_time(
             rng=np.random.default_rng(seed),
         ).bootstrap_distribution
     tail = (1.0 - level) / 2.0
-    # a resample without a success is infinite, which an interpolated quantile would turn into NaN
+    # an interpolated quantile would turn infinite values into NaN
     low, high = np.quantile(made, [tail, 1.0 - tail], method="inverted_cdf")
-    return ExpectedTime(value, float(low), float(high), int(success.sum()), len(times))
+    return ExpectedTime(value, float(low), float(high), successes, len(paid))
+
+
+def _paid(hits: ArrayLike, spent: ArrayLike) -> tuple[Array, Array]:
+    """What each run spent until it succeeded or ended, and 1 where it succeeded, else 0."""
+    times = np.asarray(hits, dtype=np.float64)
+    success = np.isfinite(times)
+    paid = np.where(success, times, np.asarray(spent, dtype=np.float64))
+    return paid, success.astype(np.float64)
 
 
 def _time_per_success(paid: Array, success: Array, axis: int = -1) -> Array:
