@@ -305,10 +305,7 @@ ProblemFile = Annotated[
     str, Parameter(name="FILE", help="A problem file (TOML), or the name of a shipped case.")
 ]
 Out = Annotated[str, Parameter(name="--out", metavar="DIR", help="Folder of the report.")]
-Jobs = Annotated[
-    int,
-    Parameter(name="--jobs", validator=positive, help="Worker processes."),
-]
+Jobs = Annotated[int, Parameter(name="--jobs", validator=positive, help="Worker processes.")]
 Seeds = Annotated[int, Parameter(name="--seeds", validator=positive, help="Number of seeds.")]
 Seed = Annotated[
     int, Parameter(name="--seed", validator=not_negative, help="Seed of the random numbers.")
@@ -316,9 +313,7 @@ Seed = Annotated[
 Budget = Annotated[
     int, Parameter(name="--budget", validator=positive, help="Evaluations of the objective per run.")
 ]
-Resume = Annotated[
-    bool, Parameter(name="--resume", help="Keep what an interrupted run of the same kind has finished.")
-]
+Resume = Annotated[bool, Parameter(name="--resume", help="Keep what an interrupted run has finished.")]
 Json = Annotated[
     str | None,
     Parameter(

@@ -38,7 +38,8 @@ def merge_folders(
     """
     target = Path(folders[0]) if out is None else output_folder(out)
     store = merge([Path(name) for name in folders], target, allow=("machine",) if machines else ())
-    with ThreadPoolExecutor(1) as pool:
-        tabulate_known_times(pool, store.problems(), store)
+    if store.settings().size != "suite":  # its instances are no paper's
+        with ThreadPoolExecutor(1) as pool:
+            tabulate_known_times(pool, store.problems(), store)
     print(f"merged: {store.file} ({sum(1 for _ in store.iterate_rows())} rows)")
     return DONE
