@@ -56,6 +56,24 @@ class Cell:
     def __len__(self) -> int:
         return len(self.rows)
 
+    def first(self, runs: int) -> Cell:
+        """Return the cell with its first runs alone.
+
+        Parameters
+        ----------
+        runs : int
+            How many.
+
+        Returns
+        -------
+        Cell
+        """
+        kept = slice(0, runs)
+        return Cell(
+            self.losses[kept], self.gaps[kept], self.hits[kept], self.areas[kept],
+            self.targets, self.rows[kept],
+        )  # fmt: skip
+
     @property
     def gap(self) -> float:
         """Median gap; infinite if half of the runs are misses."""

@@ -75,7 +75,7 @@ def ecdf_figure(found: Grading) -> Figure:
     """
     figure, axes = plt.subplots(figsize=(8.0, 3.6))
     for (colour, line), place in zip(_LINES * 9, found.standing.places, strict=False):
-        cells = printed(found.cells, place.swarm).values()
+        cells = printed(found.even, place.swarm).values()
         _steps(axes, np.concatenate([cell.hits.ravel() for cell in cells]), found.protocol.budget,
                colour, line, place.swarm)  # fmt: skip
     axes.set_xscale("log")
@@ -142,7 +142,7 @@ def profile_figure(found: Grading) -> Figure:
     Figure
     """
     swarms = [place.swarm for place in found.standing.places]
-    profile = performance_profile(costs(found.cells, swarms))
+    profile = performance_profile(costs(found.even, swarms))
     figure, axes = plt.subplots(figsize=(8.0, 3.2))
     for (colour, line), swarm, share in zip(_LINES * 9, swarms, profile.share, strict=False):
         axes.step(profile.ratios, share, line, where="post", color=colour, lw=1.5, label=swarm)

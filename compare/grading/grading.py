@@ -8,6 +8,7 @@ from dataclasses import asdict, dataclass
 from typing import Any
 
 from compare.benchmark.grade import Trace
+from compare.benchmark.protocol import Coordinates
 from compare.benchmark.records.rows import BoundProof, Row, RunKey
 from compare.grading.cells import Cell, CellKey, cells_of
 from compare.grading.contest import Contest, contest
@@ -39,8 +40,8 @@ class Grading:
         Features that go with its advantage.
     failures : list of Failure
         Of all swarms.
-    cells : dict of (instance, swarm, coordinates) to Cell
-        All runs.
+    cells, even : dict of (instance, swarm, coordinates) to Cell
+        All runs; and of each swarm in the printed coordinates the seeds that all of them have.
     kind : str
         What the instances are called.
     left_out : dict of str to str
@@ -56,6 +57,7 @@ class Grading:
     reasons: list[Reason]
     failures: list[Failure]
     cells: dict[CellKey, Cell]
+    even: dict[CellKey, Cell]
     kind: str
     left_out: dict[str, str]
 
@@ -96,6 +98,7 @@ class Grading:
             "sentence": self.sentence,
             "instances": len(found.duels),
             "seeds": self.protocol.seeds,
+            "standing_seeds": self.protocol.even_seeds,
             "budget": self.protocol.budget,
             "certified": self.certified,
             "coding": self.protocol.coding,
@@ -174,18 +177,29 @@ def graded(
     cells = cells_of(rows, traces, proved)
     mine = printed(cells, protocol.swarm)
     others = [name for name in protocol.swarms if name != protocol.swarm]
-    contests = {name: contest(mine, printed(cells, name)) for name in others}
-    found = contests[protocol.against]
+    even = {
+        key: cell.first(protocol.even_seeds)
+        for key, cell in cells.items()
+        if key[2] is Coordinates.printed
+    }
+    found = contest(mine, printed(cells, protocol.against))
+    contests = {
+        name: found
+        if name == protocol.against
+        else contest(printed(even, protocol.swarm), printed(even, name))
+        for name in others
+    }
     moved = [case for case in mine if (case, protocol.swarm, "offset") in cells]
     return Grading(
         protocol,
         *(called or (protocol.swarm, protocol.against)),
         found,
-        standing(cells, protocol.swarms, contests),
+        standing(even, protocol.swarms, contests),
         drawn_to_zero(cells, protocol.swarm, moved) if moved else None,
         reasons(found, features),
         failures(rows),
         cells,
+        even,
         kind,
         dict(left_out or {}),
     )

@@ -13,6 +13,8 @@ SEEDS = 31
 """With 36 instances, two equal swarms are called equal 998 times in 1000 (tests/compare/statistics)."""
 CONTROLS = ("cma-es", "de", "random")
 """Between these a swarm stands: the best known here, a common one, and no search at all."""
+CONTROL_SEEDS = 11
+"""How many seeds the others run; the standing counts so many of every swarm."""
 ZERO_INSTANCES, ZERO_SEEDS = 12, 11
 """How many of the instances and seeds are run in moved coordinates too."""
 CODINGS = ("stretched", "shared")
@@ -29,8 +31,8 @@ class GradingProtocol:
         The swarm that is graded, and the one that it is compared with.
     others : tuple of str
         Further swarms of the standing.
-    seeds : int
-        Number of seeds, from 0.
+    seeds, control_seeds : int
+        Number of seeds, from 0: of the two swarms, and of the others at most.
     budget : int
         Evaluations of each run.
     zero_instances, zero_seeds : int
@@ -42,6 +44,7 @@ class GradingProtocol:
     others: tuple[str, ...] = CONTROLS
     coding: str = "stretched"
     seeds: int = SEEDS
+    control_seeds: int = CONTROL_SEEDS
     budget: int = DEFAULT_BUDGET.evaluations
     population: int = DEFAULT_BUDGET.population
     zero_instances: int = ZERO_INSTANCES
@@ -51,6 +54,11 @@ class GradingProtocol:
     def swarms(self) -> tuple[str, ...]:
         """All swarms, each once: the graded one first."""
         return tuple(dict.fromkeys([self.swarm, self.against, *self.others]))
+
+    @property
+    def even_seeds(self) -> int:
+        """Number of seeds that every swarm has: those of the standing."""
+        return min(self.seeds, self.control_seeds) if len(self.swarms) > 2 else self.seeds
 
     def zero_cases(self, problems: Mapping[str, Problem]) -> list[str]:
         """Names of the instances that are run in moved coordinates, spread over all of them.
@@ -85,7 +93,9 @@ class GradingProtocol:
             listed += [
                 self._run(case, swarm, seed, Coordinates.printed)
                 for swarm in self.swarms
-                for seed in range(self.seeds)
+                for seed in range(
+                    self.seeds if swarm in (self.swarm, self.against) else self.even_seeds
+                )
             ]
             if case in moved:
                 listed += [
