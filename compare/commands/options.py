@@ -258,17 +258,13 @@ _OWN = (
 
 
 def _read_cases(kind: Any, tokens: Sequence[Token]) -> tuple[str, ...]:
-    from formulations import CASES
+    text = tokens[0].value
+    files = [name.strip() for name in text.split(",") if _is_file(name.strip())]
+    return several(text, [*_cases(), *files])
 
-    wanted = [name.strip() for name in tokens[0].value.split(",") if name.strip()]
-    if not wanted:
-        raise ValueError(f"none given (known: {', '.join(CASES)})")
-    return tuple(
-        dict.fromkeys(
-            name if name.endswith(".toml") or Path(name).is_file() else known(name, CASES)
-            for name in wanted
-        )
-    )
+
+def _is_file(name: str) -> bool:
+    return name.endswith(".toml") or Path(name).is_file()
 
 
 Cases = Annotated[tuple[str, ...] | None, listed(_cases, "Shipped cases; all if left out.", "--cases")]

@@ -109,6 +109,7 @@ BAD = {
     "ablation": (["--jobs", "0"], "--jobs: 0 is not positive"),
     "readings": (["--seeds", "-3"], "--seeds: -3 is not positive"),
     "bias": (["--cases", ","], "--cases: none given (known: bagging"),
+    "tune": (["--trials", "0"], "--trials: 0 is not positive"),
     "proofs": (["--each", "two"], '--each: unable to convert "two" into int'),
     "speed": (["--case", "bagging"], "--case: the papers' 14x14 matrix is 3-5-3's, bagging is 4-3-4"),
     "free_form_study": (["--solver", "x"], '--solver: Invalid value "x"'),
