@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Callable
+from difflib import get_close_matches
 from functools import partial
 from typing import Any, NamedTuple
 
@@ -15,18 +16,19 @@ from metaheuristics.registry import ALGORITHMS, NOT_REPRODUCIBLE
 
 
 class Library(NamedTuple):
-    """A library of optimisers: its distribution, what runs one of them, what finds one or raises."""
+    """A library of optimisers: its distribution, what runs one, finds one or raises, and lists all."""
 
     distribution: str
     search: Callable[..., Moves]
     find: Callable[[str], Any]
+    names: Callable[[], list[str]]
 
 
 LIBRARIES = {
-    "mealpy": Library("mealpy", mealpy_.mealpy, mealpy_.find),
-    "pymoo": Library("pymoo", pymoo_.pymoo, pymoo_.find),
-    "nevergrad": Library("nevergrad", nevergrad_.nevergrad, nevergrad_.find),
-    "minion": Library("minionpy", minion_.minion, minion_.find),
+    "mealpy": Library("mealpy", mealpy_.mealpy, mealpy_.find, mealpy_.names),
+    "pymoo": Library("pymoo", pymoo_.pymoo, pymoo_.find, pymoo_.names),
+    "nevergrad": Library("nevergrad", nevergrad_.nevergrad, nevergrad_.find, nevergrad_.names),
+    "minion": Library("minionpy", minion_.minion, minion_.find, minion_.names),
 }
 
 
@@ -81,14 +83,23 @@ def algorithm(name: str) -> Algorithm:
 
 def _of_library(place: str, attribute: str) -> Algorithm:
     """Return an optimiser of a library; raises `UnknownAlgorithmError` if it has none of this name."""
-    distribution, search, find = LIBRARIES[place]
+    distribution, search, find, names = LIBRARIES[place]
     library(distribution)
     try:
         find(attribute)
     except (AttributeError, KeyError, TypeError, ValueError) as error:
-        raise UnknownAlgorithmError(f"{place}:{attribute} is not known: {error}") from None
+        hint = _hint(place, attribute, names())
+        raise UnknownAlgorithmError(f"{place}:{attribute} is not known: {error}{hint}") from None
     bound = partial(search, attribute)
     title = f"{attribute} of {distribution}"
     return Algorithm(
         f"{place}:{attribute}", title, distribution, bound, defaults(bound), "rivals", (distribution,)
     )
+
+
+def _hint(place: str, attribute: str, names: list[str]) -> str:
+    """Names of the library that hold what was typed, the shortest first; else those that are near it."""
+    holding = [name for name in names if attribute and attribute.lower() in name.lower()]
+    holding.sort(key=lambda name: (name != f"Original{attribute}", len(name), name))
+    near = holding[:4] or get_close_matches(attribute, names, 3)
+    return f"; did you mean {' or '.join(f'{place}:{name}' for name in near)}?" if near else ""

@@ -5,7 +5,7 @@ from __future__ import annotations
 import hashlib
 import sys
 from collections import Counter
-from collections.abc import Collection
+from collections.abc import Callable, Collection
 from typing import Any
 
 import numpy as np
@@ -71,6 +71,7 @@ def swarm(
     store: Store,
     *,
     allow: Collection[str] = (),
+    tell: Callable[[Graded], None] | None = None,
 ) -> None:
     """Grade every run that the store does not have yet, and write ``rows.csv`` in the order of the runs.
 
@@ -90,6 +91,8 @@ def swarm(
         With the bounds of all cases.
     allow : collection of str
         Columns in which the rows of one cell may differ: ``machine``, or none.
+    tell : callable, optional
+        Called with each run as it ends, once it is stored.
 
     Raises
     ------
@@ -119,6 +122,9 @@ def swarm(
             for one in graded:
                 require_above(one.row, ladders[one.run.case])
             store.add_all((one.row, one.traces) for one in graded)  # what arrives together
+            if tell is not None:
+                for one in graded:
+                    tell(one)
     finally:
         store.write_csv()
     if foreign := store.left():

@@ -72,6 +72,16 @@ _ALL = (
         "timebound check_certificate sr4c.cert.json --problem sr4c",
     ),
     Command(
+        "grade", "compare.commands.benchmark.grade:grade_swarm", COMPARISON,
+        "Say whether a swarm is better than another: one verdict, one page.",
+        "timebound grade mine.py:swarm --against pso --out grade --json verdict.json",
+    ),
+    Command(
+        "versus", "compare.commands.benchmark.versus:versus", COMPARISON,
+        "Compare any two swarms on the held-out instances.",
+        "timebound versus mealpy:OriginalGWO whale",
+    ),
+    Command(
         "all", "compare.commands.all:compare_all", COMPARISON,
         "Grade every swarm on every case, audit the papers, and write the report.",
         "timebound all --cases sr4c,ur5 --swarms pso,mipso --seeds 30 --out report",

@@ -18,6 +18,7 @@ from loky import ProcessPoolExecutor
 T = TypeVar("T")
 _THREADS = ("OMP_NUM_THREADS", "OPENBLAS_NUM_THREADS", "MKL_NUM_THREADS")
 
+_MOST_GROWTH = "2e9"  # bytes beyond which a worker is replaced; compiled code alone takes 0.3 GB
 _GLANCE = 1.0  # [s] between two looks at whether the parent is still there
 
 
@@ -95,8 +96,9 @@ def workers(jobs: int) -> Iterator[Workers]:
 
 def _pool(jobs: int) -> ProcessPoolExecutor:
     # each worker has one thread: linear algebra with threads of its own would only wait for the others
-    threads = {name: "1" for name in _THREADS if name not in os.environ}
-    pool = ProcessPoolExecutor(jobs, initializer=_begin, initargs=(os.getpid(),), env=threads)
+    settings = {name: "1" for name in _THREADS if name not in os.environ}
+    settings["LOKY_MAX_MEMORY_LEAK_SIZE"] = _MOST_GROWTH
+    pool = ProcessPoolExecutor(jobs, initializer=_begin, initargs=(os.getpid(),), env=settings)
     # workers inherit that they ignore an interrupt, which is this process's to handle
     here = threading.current_thread() is threading.main_thread()
     before = signal.signal(signal.SIGINT, signal.SIG_IGN) if here else None

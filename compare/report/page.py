@@ -176,6 +176,10 @@ def percent(gap: float | None) -> str:
     Parameters
     ----------
     gap : float or None
+
+    Returns
+    -------
+    str
     """
     if gap is None:
         return "none"

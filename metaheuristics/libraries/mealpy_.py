@@ -17,7 +17,7 @@ def find(name: str) -> Any:
     Parameters
     ----------
     name : str
-        Name of its class.
+        Name of its class; ``GWO`` stands for ``OriginalGWO``.
 
     Returns
     -------
@@ -29,7 +29,18 @@ def find(name: str) -> Any:
     KeyError
         There is none.
     """
-    return library("mealpy").get_all_optimizers(verbose=False)[name]
+    known = library("mealpy").get_all_optimizers(verbose=False)
+    return known[name] if name in known or f"Original{name}" not in known else known[f"Original{name}"]
+
+
+def names() -> list[str]:
+    """Return the names of all of them.
+
+    Returns
+    -------
+    list of str
+    """
+    return sorted(library("mealpy").get_all_optimizers(verbose=False))
 
 
 def mealpy(name: str, task: Task, *, population: int = 50) -> Moves:

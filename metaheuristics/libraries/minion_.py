@@ -72,6 +72,18 @@ def find(name: str) -> Any:
     return found
 
 
+def names() -> list[str]:
+    """Return the names of all of them.
+
+    Returns
+    -------
+    list of str
+    """
+    base = library("minionpy").MinimizerBase
+    every = vars(library("minionpy")).items()
+    return sorted(key for key, one in every if isinstance(one, type) and issubclass(one, base))
+
+
 def _search(task: Task, name: str, options: dict[str, Any] | None) -> Moves:
     minimiser = find(name)
     bounds = list(zip(task.lo.tolist(), task.hi.tolist(), strict=True))

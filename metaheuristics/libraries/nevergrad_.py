@@ -31,6 +31,16 @@ def find(name: str) -> Any:
     return library("nevergrad").optimizers.registry[name]
 
 
+def names() -> list[str]:
+    """Return the names of all of them.
+
+    Returns
+    -------
+    list of str
+    """
+    return sorted(library("nevergrad").optimizers.registry)
+
+
 def nevergrad(name: str, task: Task) -> Moves:
     """Run an optimiser of nevergrad, which knows its budget, one point at a time.
 

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import pkgutil
+import re
 from pathlib import Path
 from typing import Any
 
@@ -71,3 +72,15 @@ def find(name: str) -> Any:
         if source.exists() and f"class {name}(" in source.read_text("utf-8"):
             return getattr(library("pymoo", f"{FOLDER}.{module.name}"), name)
     raise AttributeError(f"pymoo has no {name} in {FOLDER}")
+
+
+def names() -> list[str]:
+    """Return the names of all of them.
+
+    Returns
+    -------
+    list of str
+    """
+    folder = Path(library("pymoo", FOLDER).__path__[0])
+    texts = (path.read_text("utf-8") for path in sorted(folder.glob("*.py")))
+    return [name for text in texts for name in re.findall(r"^class (\w+)\(", text, re.MULTILINE)]

@@ -90,6 +90,8 @@ NEED_A_FILE = ("solve", "plan", "check", "split", "motion_picture", "check_certi
 
 BAD = {
     "new": (["--limits", "joint_limits.yaml"], "joint_limits.yaml: no such file"),
+    "grade": (["psoo"], "'psoo' is not known"),
+    "versus": (["pso", "pso"], "pso: is the swarm itself"),
     "solve": (["nowhere.toml"], "nowhere.toml: no such file"),
     "plan": (["sr4c", "--stop", "soon"], '--stop: unable to convert "soon" into int'),
     "check": (["sr4c", "nowhere.csv"], "nowhere.csv: no such file"),
