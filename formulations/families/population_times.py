@@ -43,7 +43,7 @@ class PopulationTimes:
     >>> problem = f.load("sr4c")
     >>> times = PopulationTimes(f.FAMILIES["3-5-3"], problem, stretched=True)
     >>> times(np.array([[2.0, 1.0, 2.0], [2.0, 2.0, 2.0]])).round(3).tolist()
-    [10.034, 5.142]
+    [10.035, 5.14]
     """
 
     def __init__(self, family: Family, problem: Problem, *, stretched: bool) -> None:

@@ -23,6 +23,7 @@ from compare.benchmark.records.database.connection import Database
 from compare.benchmark.records.facts import AuditRecord, require_judged
 from compare.benchmark.records.settings import Settings
 from compare.benchmark.records.store import Store
+from compare.benchmark.tuning.constants import read_constants
 from compare.check_certificate import certificate_file
 from compare.check_certificate.verify import verify
 from compare.plain_data import read_json
@@ -137,6 +138,11 @@ def read_certificate(path: Path) -> None:
     assert "no " in verify(certificate_file.read(path), show=True)
 
 
+def read_tuned(path: Path) -> None:
+    for constants in read_constants(path).values():
+        assert np.isfinite(np.array(list(constants.values()), dtype=np.float64)).all()
+
+
 def read_store(path: Path) -> None:
     """A file of a folder of results, which ``--resume`` and ``report`` read."""
     _STORED[path.name.removeprefix("input-").removeprefix("found-").split(".")[0].split("-")[0]](path)
@@ -216,8 +222,9 @@ READERS = (
     Reader("problem", read_problem, 150, names_files=True),
     Reader("poses", read_problem, 5, names_files=True),
     Reader("paper", read_paper, 80),
-    Reader("motion", read_any_motion, 170),
+    Reader("motion", read_any_motion, 150),
     Reader("npz", read_any_motion, 50),
     Reader("certificate", read_certificate, 50, places=("",)),
     Reader("store", read_store, 50),
+    Reader("constants", read_tuned, 20),
 )

@@ -38,6 +38,8 @@ DOORS = {
     "compare/benchmark/suite/arms.py": "shipped files only",
     "formulations/arms/arm.py": "shipped files only",
     "compare/report/page.py": "a cell of a row, and pictures",
+    "compare/benchmark/tuning/constants.py": "shipped files only",
+    "compare/grading/names.py": "the source of a swarm, which runs afterwards",
     "compare/sources.py": "the source",
     "compare/benchmark/records/proof_cache.py": "the source",
     "compare/benchmark/records/provenance.py": "the source",

@@ -3,13 +3,16 @@
 from __future__ import annotations
 
 import json
-import tomllib
 from collections.abc import Iterable, Mapping
 from importlib.resources import files
 from pathlib import Path
 
+from compare.plain_data import typed_or_line
 from formulations import InputError
+from formulations.problem.toml_file.toml_text import LARGEST, parse_toml
+from formulations.robot.text.files import decode, read_bytes, shown
 
+_MOST = 1e12  # size of a constant
 Constants = dict[str, float | int]
 """Constants of one algorithm by name."""
 
@@ -33,18 +36,20 @@ def read_constants(file: str | Path | None = None) -> dict[str, Constants]:
         If the file cannot be read; the message names the swarm and the constant.
     """
     where = "tuned.toml" if file is None else str(file)
-    try:
-        source = files("compare.benchmark.tuning") / "tuned.toml" if file is None else Path(file)
-        data = tomllib.loads(source.read_text("utf-8"))
-    except (OSError, ValueError) as error:
-        raise InputError(f"{where}: cannot be read: {error}") from None
-    found = data.get("constants")
-    if not isinstance(found, dict):
+    if file is None:
+        text = (files("compare.benchmark.tuning") / "tuned.toml").read_text("utf-8")
+    else:
+        text = decode(read_bytes(Path(file), largest=LARGEST), where)
+    data = parse_toml(text, where)
+    if "constants" not in data:
         raise InputError(f"{where}: constants: missing; `timebound tune` writes such files")
+    found: dict[str, Constants] = typed_or_line(
+        dict[str, dict[str, int | float]], data["constants"], where
+    )
     for swarm, constants in found.items():
-        for name, value in constants.items() if isinstance(constants, dict) else [("", constants)]:
-            if isinstance(value, bool) or not isinstance(value, int | float):
-                raise InputError(f"{where}: constants.{swarm}.{name}: {value!r} is not a number")
+        for name, value in constants.items():
+            if abs(value) > _MOST:
+                raise InputError(f"{where}: constants.{swarm}.{name}: {shown(value)} is beyond {_MOST:g}")
     return found
 
 

@@ -93,9 +93,12 @@ def test_any_constants_come_back_from_their_file(
 def test_a_file_that_holds_no_constants_is_refused(tmp_path: Path) -> None:
     path = tmp_path / "tuned.toml"
     for text, words in (
-        ("", "constants: missing"),
-        ("[constants.pso]\nw = 'fast'", "constants.pso.w: 'fast' is not a number"),
-        ("[constants", "cannot be read"),
+        ("", "is empty"),
+        ("[made]", "constants: missing"),
+        ("[constants.pso]\nw = 'fast'", "pso.w: expected a number, got 'fast'"),
+        ("[constants.pso]\nw = nan", "pso.w: nan is not a finite number"),
+        ("[constants.pso]\nw = 1e13", "constants.pso.w: 10000000000000.0 is beyond 1e.12"),
+        ("[constants", "not valid TOML"),
     ):
         path.write_text(text)
         with pytest.raises(InputError, match=words):
