@@ -15,7 +15,7 @@ from compare.audit.paper import PAPERS, Paper, PrintedTimes, load_papers
 from compare.benchmark.ladders import LadderRecord
 from compare.benchmark.records.pooled import pooled
 from compare.benchmark.records.rows import Row
-from compare.benchmark.statistics import median, times_of
+from compare.benchmark.summaries import median, times_of
 from formulations import Problem
 from formulations.motion.verdict import TOLERANCE
 

@@ -23,7 +23,7 @@ from compare.benchmark.records.provenance import machine, versions_text
 from compare.benchmark.records.rejudge import judged_again
 from compare.benchmark.records.rows import BoundProof, Row
 from compare.benchmark.records.store import Store
-from compare.benchmark.statistics import bound_of
+from compare.benchmark.summaries import bound_of
 from compare.engines import Engine, each
 from formulations import FAMILIES, InputError, Problem, ladder
 

@@ -8,8 +8,8 @@ from compare.benchmark.ladders import LadderRecord
 from compare.benchmark.proving import prove_all
 from compare.benchmark.records.store import Store
 from compare.benchmark.run import swarm, warm_up
-from compare.benchmark.statistics import bound_of
 from compare.benchmark.suite import Instance, Split, chosen, suite
+from compare.benchmark.summaries import bound_of
 from compare.engines import Engine
 from compare.grading.failures import Console
 from compare.grading.grading import Grading, graded

@@ -19,7 +19,7 @@ from compare.benchmark.protocol import Coordinates, Track
 from compare.benchmark.records.rejudge import judged_again
 from compare.benchmark.records.rows import Row, RowStatus
 from compare.benchmark.records.store import Settings, Store
-from compare.benchmark.statistics import (
+from compare.benchmark.summaries import (
     Summary,
     as_papers_run,
     best_claim,

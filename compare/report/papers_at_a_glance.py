@@ -10,7 +10,7 @@ from compare.audit.findings import IN_SHORT
 from compare.benchmark.known_times import KnownTime
 from compare.benchmark.ladders import LadderRecord
 from compare.benchmark.records.rows import BoundProof
-from compare.benchmark.statistics import bound_of
+from compare.benchmark.summaries import bound_of
 
 
 @dataclass(frozen=True)

@@ -10,9 +10,9 @@ from typing import Any
 from compare.benchmark.ladders import LadderRecord
 from compare.benchmark.records.rejudge import judged_again
 from compare.benchmark.records.store import Settings, Store
-from compare.benchmark.statistics import Summary, median, summaries
 from compare.benchmark.suite.features import Features
 from compare.benchmark.suite.instance import Instance, Split
+from compare.benchmark.summaries import Summary, median, summaries
 from compare.files import write_text
 from compare.report.page import environment, faults_of, swarms_in
 from metaheuristics import GROUPS

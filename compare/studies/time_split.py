@@ -26,7 +26,7 @@ from matplotlib.figure import Figure
 
 from compare.benchmark.grade import Run, grade
 from compare.benchmark.ladders import RungRecord, ladder_record
-from compare.benchmark.statistics import bound_of
+from compare.benchmark.summaries import bound_of
 from compare.report.style import BLUE, GREEN, GREY, ORANGE, SKY, VERMILION, styled
 from compare.screen import table
 from formulations import InputError, Problem, ladder

@@ -18,7 +18,7 @@ from compare.benchmark.records.pooled import require_pooled
 from compare.benchmark.records.rows import BoundProof
 from compare.benchmark.records.settings import Settings, budget_words
 from compare.benchmark.records.store import Store
-from compare.benchmark.statistics import bound_of
+from compare.benchmark.summaries import bound_of
 from formulations import InputError
 
 # what tells one cell of a plan from another, in the order of the loops that make a plan

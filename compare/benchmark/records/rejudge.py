@@ -20,7 +20,7 @@ import numpy as np
 from compare.benchmark.ladders import LadderRecord
 from compare.benchmark.records.provenance import problem_digest
 from compare.benchmark.records.rows import Row, RowStatus, RunKey, durations_of, relative_gap
-from compare.benchmark.statistics import bound_of
+from compare.benchmark.summaries import bound_of
 from formulations import FAMILIES, InputError, Problem, Trajectory, check
 from formulations.motion.verdict import TOLERANCE
 from formulations.problem.arrays import Array, Truths

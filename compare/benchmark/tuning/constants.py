@@ -49,7 +49,9 @@ def read_constants(file: str | Path | None = None) -> dict[str, Constants]:
     for swarm, constants in found.items():
         for name, value in constants.items():
             if abs(value) > _MOST:
-                raise InputError(f"{where}: constants.{swarm}.{name}: {shown(value)} is beyond {_MOST:g}")
+                raise InputError(
+                    f"{where}: constants.{swarm}.{name}: {shown(value)} is beyond {_MOST:g}"
+                )
     return found
 
 

@@ -9,7 +9,7 @@ import numpy as np
 from matplotlib.axes import Axes
 
 from compare.benchmark.grade import Trace
-from compare.benchmark.statistics import best_after
+from compare.benchmark.summaries import best_after
 
 _POINTS = 80  # of a stored curve
 

@@ -10,7 +10,7 @@ from matplotlib.figure import Figure
 
 from compare.benchmark.ladders import LadderRecord
 from compare.benchmark.records.rows import BoundProof, Row
-from compare.benchmark.statistics import best_claim, best_row, bound_of
+from compare.benchmark.summaries import best_claim, best_row, bound_of
 from compare.report.style import BLUE, GREEN, ORANGE, PURPLE, VERMILION, styled
 from formulations import RUNGS, Problem
 

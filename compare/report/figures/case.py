@@ -13,7 +13,7 @@ from matplotlib.figure import Figure
 from compare.benchmark.grade import Trace
 from compare.benchmark.ladders import LadderRecord
 from compare.benchmark.records.rows import Row, RunKey
-from compare.benchmark.statistics import lower_median, times_of
+from compare.benchmark.summaries import lower_median, times_of
 from compare.files import write_text
 from compare.report.figures import convergence_figure, gap_figure, ladder_figure, motion_figure
 from compare.report.motion_picture import fastest_spline

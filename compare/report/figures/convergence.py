@@ -13,7 +13,7 @@ from matplotlib.figure import Figure
 from compare.benchmark.grade import Trace
 from compare.benchmark.ladders import LadderRecord
 from compare.benchmark.records.rows import Row, RunKey
-from compare.benchmark.statistics import convergence
+from compare.benchmark.summaries import convergence
 from compare.report.style import (
     BLACK,
     BLUE,

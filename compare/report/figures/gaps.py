@@ -8,7 +8,7 @@ import matplotlib.pyplot as plt
 from matplotlib.figure import Figure
 
 from compare.benchmark.records.rows import Row
-from compare.benchmark.statistics import gaps_of, median
+from compare.benchmark.summaries import gaps_of, median
 from compare.report.style import BLACK, GREY, SMALLEST_GAP, styled, variant_style
 from formulations import Problem
 

@@ -12,7 +12,7 @@ from matplotlib.lines import Line2D
 
 from compare.benchmark.ladders import LadderRecord
 from compare.benchmark.records.rows import Row, durations_of
-from compare.benchmark.statistics import best_claim, best_row
+from compare.benchmark.summaries import best_claim, best_row
 from compare.report.style import BLACK, BLUE, GREY, VERMILION, styled
 from formulations import FAMILIES, Problem, Trajectory, check
 from formulations.motion.picture import samples

@@ -15,7 +15,7 @@ from compare.benchmark.protocol import Coordinates, Track
 from compare.benchmark.records.database.schema import RUN_COLUMNS
 from compare.benchmark.records.pooled import pooled
 from compare.benchmark.records.rows import Row
-from compare.benchmark.statistics import summaries
+from compare.benchmark.summaries import summaries
 from formulations import InputError, load
 
 PLANTED: dict[str, tuple[dict[str, Any], str]] = {

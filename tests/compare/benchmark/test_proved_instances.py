@@ -17,9 +17,9 @@ from compare.benchmark.plan import runs
 from compare.benchmark.proving import prove_all
 from compare.benchmark.records.store import Store
 from compare.benchmark.run import swarm
-from compare.benchmark.statistics import Summary
 from compare.benchmark.suite import Instance, Split, suite
 from compare.benchmark.suite.features import active_limits, conditioning, count_basins, features_of
+from compare.benchmark.summaries import Summary
 from compare.engines import Engine, ThisProcess
 from compare.report.suite_page import standing
 from formulations import FAMILIES, Limits, Problem, family_optimum, load

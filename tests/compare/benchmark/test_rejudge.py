@@ -19,7 +19,7 @@ from compare.benchmark.objective import CODINGS
 from compare.benchmark.records.rejudge import exact_extent, judged_again
 from compare.benchmark.records.rows import BoundProof, Row, RowStatus
 from compare.benchmark.records.store import Store
-from compare.benchmark.statistics import bound_of, summaries
+from compare.benchmark.summaries import bound_of, summaries
 from formulations import FAMILIES, Problem, check, load
 
 CASES = ("sr4c", "ur5", "cobot", "bagging")

@@ -20,7 +20,7 @@ from compare.benchmark.records.database.schema import MAKER_COLUMNS
 from compare.benchmark.records.provenance import code_digest
 from compare.benchmark.records.store import Store
 from compare.benchmark.run import climb, swarm
-from compare.benchmark.statistics import summaries
+from compare.benchmark.summaries import summaries
 from compare.engines import Engine, ThisProcess
 from formulations import InputError, Problem, load
 

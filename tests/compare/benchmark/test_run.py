@@ -7,7 +7,7 @@ from pathlib import Path
 from compare.benchmark.records.rows import BoundProof
 from compare.benchmark.records.store import Store
 from compare.benchmark.run import climb
-from compare.benchmark.statistics import bound_of
+from compare.benchmark.summaries import bound_of
 from compare.engines import workers
 from formulations import load
 

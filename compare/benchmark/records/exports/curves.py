@@ -20,7 +20,7 @@ from compare.benchmark.ladders import LadderRecord
 from compare.benchmark.records.pooled import CELL, require_pooled
 from compare.benchmark.records.rows import Row
 from compare.benchmark.records.store import Store
-from compare.benchmark.statistics import bound_of
+from compare.benchmark.summaries import bound_of
 from formulations.problem.arrays import Array
 
 

@@ -9,7 +9,7 @@ import pytest
 from graded_runs import graded
 
 from compare.benchmark.grade import Trace
-from compare.benchmark.statistics import convergence, summaries
+from compare.benchmark.summaries import convergence, summaries
 from formulations import load
 
 
