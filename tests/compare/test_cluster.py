@@ -2,15 +2,12 @@
 
 from __future__ import annotations
 
-import os
-import signal
-import subprocess
-import sys
 import time
 from collections.abc import Iterator
 from pathlib import Path
 
 import pytest
+from dask_processes import Processes
 from graded_runs import without_times
 
 from compare.benchmark import suite
@@ -24,52 +21,10 @@ distributed = pytest.importorskip("distributed")
 pytestmark = pytest.mark.slow
 
 
-class Processes:
-    """A scheduler and its workers, each a process of its own."""
-
-    def __init__(self, folder: Path) -> None:
-        self.folder = folder
-        self.environment = {**os.environ, "PYTHONPATH": os.pathsep.join(p for p in sys.path if p)}
-        self.scheduler = self.start("scheduler", "--host", "127.0.0.1", "--port", "0", "--no-dashboard",
-                                    "--scheduler-file", str(folder / "scheduler.json"))  # fmt: skip
-        self.workers = [self.worker(), self.worker()]
-
-    def start(self, *words: str) -> subprocess.Popen[bytes]:
-        return subprocess.Popen(
-            [sys.executable, "-m", "dask", *words], cwd=self.folder, env=self.environment,
-            stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL, start_new_session=True,
-        )  # fmt: skip
-
-    def worker(self) -> subprocess.Popen[bytes]:
-        return self.start("worker", "--scheduler-file", "scheduler.json", "--nthreads", "1", "--no-dashboard",
-                          "--host", "127.0.0.1", "--local-directory", str(self.folder))  # fmt: skip
-
-    @property
-    def address(self) -> str:
-        import json
-
-        for _ in range(600):
-            try:
-                return str(json.loads((self.folder / "scheduler.json").read_text())["address"])
-            except (OSError, ValueError):
-                time.sleep(0.2)
-        raise TimeoutError("no scheduler")
-
-    def kill(self, process: subprocess.Popen[bytes]) -> None:
-        os.killpg(process.pid, signal.SIGKILL)
-        process.wait()
-
-    def end(self) -> None:
-        for process in (*self.workers, self.scheduler):
-            if process.poll() is None:
-                self.kill(process)
-
-
 @pytest.fixture(scope="module")
 def processes(tmp_path_factory: pytest.TempPathFactory) -> Iterator[Processes]:
-    found = Processes(tmp_path_factory.mktemp("cluster"))
-    yield found
-    found.end()
+    with Processes(tmp_path_factory.mktemp("cluster")) as found:
+        yield found
 
 
 def slow_square(x: int) -> int:
