@@ -27,7 +27,7 @@ _FIRST_STEPS = (
     ),
     (
         "You have a new swarm, and want to know whether it is better:",
-        ("timebound all --swarms module:function,pso --apart 60", "report/index.html"),
+        ("timebound grade mine.py:swarm", "one verdict, and grade/grade.html"),
         ("timebound split sr4c --swarm module:function", "where its motion loses time"),
     ),
     (
