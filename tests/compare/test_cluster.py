@@ -10,7 +10,7 @@ import pytest
 from dask_processes import Processes
 from graded_runs import without_times
 
-from compare.benchmark import suite
+from compare.benchmark.plan import runs
 from compare.benchmark.records.store import Store
 from compare.benchmark.run import climb, swarm
 from compare.engines import Engine, each, on_cluster, workers
@@ -37,10 +37,8 @@ def rows_of(engine: Engine, folder: Path) -> list[dict[str, object]]:
     store.clear()
     problems = {"cobot": load("cobot")}
     climb(engine, problems, store, certify=False)
-    runs = suite.runs(
-        cases=["cobot"], swarms=["pso", "whale"], codings=["stretched"], seeds=3, evaluations=200
-    )
-    swarm(engine, runs, problems, store)
+    planned = runs(problems, swarms=["pso", "whale"], codings=["stretched"], seeds=3, evaluations=200)
+    swarm(engine, planned, problems, store)
     return [without_times(row) for row in store.rows()]
 
 

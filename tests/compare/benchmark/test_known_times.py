@@ -27,8 +27,8 @@ def ladder_of(**seconds: float | None) -> dict[str, object]:
 def rows_of(case: str, times: list[float | None]) -> list[Row]:
     row = graded(load("sr4c"), 4.7, "shared", "random", 0, 30).row
     return [
-        replace(row, case=case, coding=coding, swarm=swarm, seconds=t)
-        for t in times
+        replace(row, case=case, coding=coding, swarm=swarm, seed=seed, seconds=t)
+        for seed, t in enumerate(times)
         for coding in ("stretched", "published")
         for swarm in (SWARMS[case], "random")
     ]

@@ -118,7 +118,7 @@ def test_rows_of_other_arguments_versions_or_code_are_not_mixed_in(
     found = run(STUDY, [("a", 2), ("b", 1)], folder=tmp_path, resume=True)
     assert MADE == [("a", 2)]
     assert found.summary == {"rows": 3}
-    for what in ("versions_text", "_code"):
+    for what in ("versions_text", "source_digest"):
         with monkeypatch.context() as other:
             other.setattr(module, what, lambda: "another")
             MADE.clear()

@@ -79,7 +79,10 @@ class Database:
 
     def _opened(self) -> sqlite3.Connection:
         if self._connection is None:
-            made = sqlite3.connect(self.file, timeout=PATIENCE, isolation_level=None)
+            # one thread uses it at a time; the garbage collector may close it in another one
+            made = sqlite3.connect(
+                self.file, timeout=PATIENCE, isolation_level=None, check_same_thread=False
+            )
             try:
                 _prepare(made)
             except ValueError as error:
