@@ -7,6 +7,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
+from formulations.motion.extremes import Extremes
 from formulations.motion.trajectory import Trajectory
 from formulations.problem.conditions import Conditions
 from formulations.problem.joint_words import factors, shown_unit
@@ -89,9 +90,23 @@ def peaks_of_joints(problem: Problem, trajectory: Trajectory, asked: Conditions)
     middles = trajectory.breaks[:-1] + 0.5 * trajectory.durations
     segments = np.searchsorted(trajectory.passage_times, middles) - 1
     segments = np.clip(segments, 0, max(len(trajectory.passage_times) - 2, 0))
-    mine = np.minimum(segments, problem.n_segments - 1)  # a motion may have no inner waypoints
+    # a motion may have no inner waypoints; limits are compared once per segment, not per piece
+    mine, starts = np.unique(np.minimum(segments, problem.n_segments - 1), return_index=True)
+    ends = np.append(starts[1:], len(segments))
 
-    def peak(order: int, piece: int, joint: int, high: bool, limit: float, factor: float) -> Peak:
+    def worst_piece(
+        extremes: Extremes, row: int, joint: int, upper: float, lower: float
+    ) -> tuple[int, bool]:
+        """The piece of a segment with the worst value, and whether it is the highest one; ties: the first."""
+        pieces = slice(starts[row], ends[row])
+        high = int(starts[row] + extremes.high[pieces, joint].argmax())
+        low = int(starts[row] + extremes.low[pieces, joint].argmin())
+        is_high = upper > lower or (upper == lower and high <= low)
+        return (high if is_high else low), is_high
+
+    def peak(
+        extremes: Extremes, order: int, piece: int, joint: int, high: bool, limit: float, factor: float
+    ) -> Peak:
         time = float((extremes.time_high if high else extremes.time_low)[piece, joint])
         value = float((extremes.high if high else extremes.low)[piece, joint])
         stretch = factor ** (1.0 / order) if order else np.inf
@@ -109,28 +124,32 @@ def peaks_of_joints(problem: Problem, trajectory: Trajectory, asked: Conditions)
         low, high = bounds[mine, :, 0], bounds[mine, :, 1]
         width = np.where(np.isfinite(high - low), high - low, 1.0)
         slack = problem.position_slack
-        below, above = low - slack - extremes.low, extremes.high - high - slack
+        below = low - slack - np.minimum.reduceat(extremes.low, starts)
+        above = np.maximum.reduceat(extremes.high, starts) - high - slack
         excess = np.maximum(below, above)
-        for joint, piece in enumerate(excess.argmax(axis=0).tolist()):
-            is_high = bool(above[piece, joint] >= below[piece, joint])
-            limit = float((high if is_high else low)[piece, joint])
+        for joint, row in enumerate(excess.argmax(axis=0).tolist()):
+            piece, is_high = worst_piece(extremes, row, joint, above[row, joint], below[row, joint])
+            limit = float((high if is_high else low)[row, joint])
             if np.isfinite(limit):
                 # strictly inside counts as exactly 1: a position is kept or not
-                factor = 1.0 + max(float(excess[piece, joint]), 0.0) / float(width[piece, joint])
-                found.append(peak(0, piece, joint, is_high, limit, factor))
+                factor = 1.0 + max(float(excess[row, joint]), 0.0) / float(width[row, joint])
+                found.append(peak(extremes, 0, piece, joint, is_high, limit, factor))
     for order in (1, 2, 3):
         limits = asked.derivatives(problem)[order - 1]
         if not np.isfinite(limits).any():
             continue
         limits = limits[mine]
         extremes = trajectory.extremes(order)
-        upper, lower = extremes.high / limits, -extremes.low / limits
+        upper = np.maximum.reduceat(extremes.high, starts) / limits
+        lower = -np.minimum.reduceat(extremes.low, starts) / limits
         ratio = np.maximum(upper, lower)
-        for joint, piece in enumerate(ratio.argmax(axis=0).tolist()):
-            limit = float(limits[piece, joint])
+        for joint, row in enumerate(ratio.argmax(axis=0).tolist()):
+            limit = float(limits[row, joint])
             if np.isfinite(limit):
-                is_high = bool(upper[piece, joint] >= lower[piece, joint])
-                found.append(peak(order, piece, joint, is_high, limit, float(ratio[piece, joint])))
+                piece, is_high = worst_piece(extremes, row, joint, upper[row, joint], lower[row, joint])
+                found.append(
+                    peak(extremes, order, piece, joint, is_high, limit, float(ratio[row, joint]))
+                )
     return found
 
 
