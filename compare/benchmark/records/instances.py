@@ -47,22 +47,30 @@ def problem_of(data: dict[str, Any]) -> Problem:
     Returns
     -------
     Problem
+
+    Raises
+    ------
+    ValueError
+        If an entry is missing or of another type.
     """
-    limits = data["limits"]
-    position = np.array(limits["position"], dtype=np.float64)  # None becomes NaN
-    unlimited = np.array([-np.inf, np.inf])
-    arrays = {key: _filled(limits[key], np.inf) for key in _LIMITS[:3]}
-    return Problem(
-        np.array(data["waypoints"], dtype=np.float64),
-        Limits(
-            **arrays,
-            position=np.where(np.isnan(position), unlimited, position),
-            units=tuple(data["units"]),
-        ),
-        names=data["names"],
-        units=data["units"],
-        **{key: data[key] for key in _TEXTS},
-    )
+    try:
+        limits = data["limits"]
+        position = np.array(limits["position"], dtype=np.float64)  # None becomes NaN
+        unlimited = np.array([-np.inf, np.inf])
+        arrays = {key: _filled(limits[key], np.inf) for key in _LIMITS[:3]}
+        return Problem(
+            np.array(data["waypoints"], dtype=np.float64),
+            Limits(
+                **arrays,
+                position=np.where(np.isnan(position), unlimited, position),
+                units=tuple(data["units"]),
+            ),
+            names=data["names"],
+            units=data["units"],
+            **{key: data[key] for key in _TEXTS},
+        )
+    except (KeyError, TypeError) as error:
+        raise ValueError(f"not a problem as it is stored: {error!r:.100}") from None
 
 
 def instance_digest(problem: Problem) -> str:

@@ -57,7 +57,8 @@ class Tree:
 
     def replay(self) -> int:
         """Verify every event; returns the number of discards."""
-        stack, discards, rows = [self.root], 0, None
+        stack, discards = [self.root], 0
+        rows: list[Any] = []  # those of the last event that has some; none prove nothing
         node: Node | None = None
         for count, raw in enumerate(self.claim.events, 1):
             event = items(raw, 1, 4)
