@@ -199,12 +199,15 @@ class StoredFacts:
 
     @contextmanager
     def _reading(self) -> Iterator[sqlite3.Connection]:
-        """The connection; a value that does not fit becomes one line."""
+        """The connection; a value that does not fit, or one that is missing, becomes one line."""
         with self.database.reading() as connection:
             try:
                 yield connection
             except ValueError as error:
                 raise InputError(f"{self.file}: {error}") from None
+            # SQLite keeps any type in any column, and a damaged file has rows that refer to none
+            except (KeyError, TypeError, OverflowError) as error:
+                raise InputError(f"{self.file}: damaged: {error!r:.200}") from None
 
     def _documents(self, what: str, kind: Any) -> dict[str, Any]:
         """Documents of one kind by name, each entry of the type that it must have."""

@@ -16,6 +16,7 @@ from compare.benchmark.grade import Trace
 from compare.benchmark.records.cells import one_line
 from compare.benchmark.records.database.schema import KINDS
 
+_LARGEST = 100_000_000  # bytes of the traces of one run
 _INTEGERS, _FLOATS = np.dtype("<i4"), np.dtype("<f8")
 
 
@@ -115,10 +116,13 @@ def unpacked(data: bytes) -> list[Trace]:
     ValueError
         If they do not fit.
     """
+    stream = zlib.decompressobj()
     try:
-        plain = zlib.decompress(data)
+        plain = stream.decompress(data, _LARGEST)
     except zlib.error as error:
         raise ValueError(str(error)) from None
+    if stream.unconsumed_tail or not stream.eof:
+        raise ValueError(f"a trace that is cut short, or larger than {_LARGEST} bytes")
     count = int(np.frombuffer(plain, _INTEGERS, 1)[0])
     shapes = np.frombuffer(plain, _INTEGERS, 2 * count, 4).reshape(count, 2)
     total, start = int(shapes[:, 1].sum()), 4 * (1 + 2 * count)
