@@ -17,6 +17,7 @@ from formulations.motion.files.checked import QUANTITIES, named, numbered, stack
 from formulations.motion.files.decimals import decimals_of, time_decimals, write_records
 from formulations.motion.files.motion_points import MotionPoints
 from formulations.motion.files.records import csv_records, require_small
+from formulations.motion.trajectory import MOST_SAMPLES
 from formulations.problem.arrays import Array
 from formulations.problem.errors import InputError
 from formulations.robot.text.files import decode, known_names, shown
@@ -72,8 +73,10 @@ def read_csv(data: bytes, file: str, *, records: bool = True) -> MotionPoints:
     Raises
     ------
     InputError
-        Names line and column.
+        There are more than 5,000,000 lines, or one that cannot be read; names line and column.
     """
+    if (rows := data.count(b"\n")) > MOST_SAMPLES:
+        raise InputError(f"{file}: {rows} lines; at most {MOST_SAMPLES} points of a motion are read")
     found, values = csv_records(data) if records else None, None
     if found is not None:
         with contextlib.suppress(InputError):  # its line is that of the document, not that of the file
