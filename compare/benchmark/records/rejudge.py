@@ -17,6 +17,7 @@ from functools import cached_property
 
 import numpy as np
 
+from compare.benchmark.below_bound import broken_bound
 from compare.benchmark.ladders import LadderRecord
 from compare.benchmark.records.provenance import problem_digest
 from compare.benchmark.records.rows import Row, RowStatus, RunKey, durations_of, relative_gap
@@ -27,8 +28,6 @@ from formulations.problem.arrays import Array, Truths
 
 _ROUNDING = 1e-12  # relative; the sum of the durations on another machine
 _SAME = 1e-8  # relative; stretch of the claimed motion, from the verified one
-# no motion that the check lets pass is faster than a certified bound by more (`least_verified`)
-BELOW = 10.0 * TOLERANCE
 
 
 def judged_again(
@@ -153,12 +152,11 @@ class _Judge:
 
     def _proved(self, k: int) -> str | None:
         seconds = self.rows[k].seconds
-        for key in ("family_lower", "free_form_lower"):
-            rung = self.ladder["ladder"].get(key)
-            least = rung["seconds"] if rung is not None and rung["certified"] else None
-            if seconds is not None and least and seconds < least * (1.0 - BELOW):
-                return f"{seconds:.9g} s is less than {least:.9g} s, the certified bound ({key})"
-        return None
+        broken = broken_bound(seconds, self.ladder)
+        if broken is None:
+            return None
+        key, least = broken
+        return f"{seconds:.9g} s is less than {least:.9g} s, the certified bound ({key})"
 
     def _gaps(self, k: int) -> str | None:
         row = self.rows[k]

@@ -2,16 +2,13 @@
 
 from __future__ import annotations
 
-import math
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from enum import StrEnum
 from typing import Any
 
-import numpy as np
-
+from compare.benchmark.records.instances import plain_problem, problem_of
 from compare.benchmark.records.provenance import problem_digest
-from formulations import InputError, Limits, Problem
-from formulations.problem.arrays import Array
+from formulations import InputError, Problem
 
 
 class Split(StrEnum):
@@ -61,25 +58,13 @@ class Instance:
 
     def to_json(self) -> dict[str, Any]:
         """Return plain numbers and text, from which `from_json` makes the same instance."""
-        problem, limits = self.problem, self.problem.limits
         return {
             "name": self.name,
             "split": self.split.value,
             "origin": self.origin,
             "source": self.source,
             "digest": self.digest,
-            "problem": {
-                "family": problem.family,
-                "title": problem.title,
-                "display_unit": problem.display_unit,
-                "names": list(problem.names),
-                "units": list(problem.units),
-                "waypoints": problem.waypoints.tolist(),
-                "velocity": _finite(limits.velocity),
-                "acceleration": _finite(limits.acceleration),
-                "jerk": _finite(limits.jerk),
-                "position": _finite(limits.position),
-            },
+            "problem": plain_problem(replace(self.problem, name=self.name, source=self.source)),
         }
 
     @staticmethod
@@ -101,26 +86,7 @@ class Instance:
             If an entry is missing or does not fit, or the digest is that of another problem.
         """
         try:
-            stated = data["problem"]
-            units = tuple(stated["units"])
-            limits = Limits(
-                _infinite(stated["velocity"], 1),
-                _infinite(stated["acceleration"], 1),
-                _infinite(stated["jerk"], 1),
-                _infinite(stated["position"], 2),
-                units,
-            )
-            problem = Problem(
-                stated["waypoints"],
-                limits,
-                name=data["name"],
-                family=stated["family"],
-                title=stated["title"],
-                source=data["source"],
-                display_unit=stated["display_unit"],
-                names=stated["names"],
-                units=units,
-            )
+            problem = problem_of(data["problem"])
             split = Split(data["split"])
             found = Instance(data["name"], problem, split, data["origin"], data["source"])
             digest = data["digest"]
@@ -129,23 +95,3 @@ class Instance:
         if found.digest != digest:
             raise InputError(f"instance {found.name}: its digest is {found.digest}, not {digest}")
         return found
-
-
-def _finite(values: Array) -> list[Any]:
-    """Numbers as lists, None where there is no limit: JSON has no infinity."""
-    if values.ndim > 1:
-        return [_finite(row) for row in values]
-    return [float(v) if math.isfinite(v) else None for v in values]
-
-
-def _infinite(values: list[Any], dimensions: int) -> Array:
-    """Numbers of lists; None is infinite, downwards for the first of a pair."""
-    if dimensions == 1:
-        return np.array([math.inf if v is None else v for v in values], dtype=np.float64)
-    return np.array(
-        [
-            [-math.inf if low is None else low, math.inf if high is None else high]
-            for low, high in values
-        ],
-        dtype=np.float64,
-    )

@@ -108,7 +108,7 @@ def test_plain_data_of_another_problem_is_refused(sixty: list[Instance]) -> None
     data["problem"]["waypoints"][1][0] += 1e-9
     with pytest.raises(InputError, match="its digest is"):
         Instance.from_json(data)
-    del data["problem"]["velocity"]
+    del data["problem"]["limits"]["velocity"]
     with pytest.raises(InputError, match="velocity"):
         Instance.from_json(data)
 
