@@ -13,7 +13,7 @@ from compare.benchmark.records.store import Store
 from compare.benchmark.run import warm_up
 from compare.benchmark.suite import SIZE, Split, suite
 from compare.benchmark.tuning.constants import constants_text
-from compare.benchmark.tuning.tuner import tune
+from compare.benchmark.tuning.tuner import optuna_library, tune
 from compare.commands import DONE
 from compare.commands.options import CORES, Budget, Jobs, Out, Seed, Swarms, positive
 from compare.engines import each, workers
@@ -43,6 +43,7 @@ def tune_swarms(
     instances
         Tune on the open ones among the first N instances.
     """
+    optuna_library()  # says what is missing before anything is proved
     wanted = list(swarms or swarms_of("suite"))
     opened = [one for one in suite(instances) if one.split is Split.open]
     store = Store(output_folder(out))

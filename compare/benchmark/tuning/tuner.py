@@ -120,11 +120,27 @@ def score(
     return total / len(instances)
 
 
-def _study(seed: int) -> Any:
+def optuna_library() -> Any:
+    """Return optuna.
+
+    Returns
+    -------
+    module
+
+    Raises
+    ------
+    InputError
+        It is not installed.
+    """
     try:
         import optuna
     except ImportError:
         raise InputError("tuning needs optuna: pip install 'timebound[grade]'") from None
+    return optuna
+
+
+def _study(seed: int) -> Any:
+    optuna = optuna_library()
     optuna.logging.set_verbosity(optuna.logging.WARNING)
     return optuna.create_study(sampler=optuna.samplers.TPESampler(seed=seed))
 
