@@ -16,12 +16,15 @@ QUESTIONS = ("Lu 2024, eq. 17: b", "Lu 2024, eq. 22: s")
 
 def make_constants(full: bool) -> dict[str, Any]:
     """Run each reading of b and s on the task of Fig. 5; the first one is the default of both."""
-    found = {}
+    found: dict[str, Any] = {}
+    objective = shared("b-spline-5")
     for question in QUESTIONS:
         for value, (swarm, changed) in READINGS[question].items():
             if changed or not found:
                 name = f"{question[-1]} = {value}" if changed else "b = 1, s = 1"
-                found[name] = plan(*shared("b-spline-5"), swarm, RUNS[full], **changed)
+                found[name] = plan(
+                    objective, objective.problem.n_segments, swarm, RUNS[full], **changed
+                )
                 del found[name]["descent"]
     return found
 

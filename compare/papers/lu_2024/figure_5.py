@@ -33,7 +33,9 @@ SWARMS = {
 def make_descent(full: bool) -> dict[str, Any]:
     """Follow the best total time over the iterations on the B-spline of degree 5."""
     problem = task("b-spline-5")
-    found = {swarm: plan(*shared("b-spline-5"), swarm, RUNS[full]) for swarm in SWARMS}
+    found = {
+        swarm: plan(shared("b-spline-5"), problem.n_segments, swarm, RUNS[full]) for swarm in SWARMS
+    }
     optimum = family_optimum(problem, starts=STARTS[full])
     whole = every_motion(problem)
     bound = max(family_bound(problem, optimum=optimum).seconds, whole)  # a B-spline is a motion

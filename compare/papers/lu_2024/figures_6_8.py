@@ -36,8 +36,8 @@ def make_curves(full: bool) -> dict[str, Any]:
     stops = FullStops(task("quintic"))
     found = {}
     for key, (_, _, family, swarm) in METHODS.items():
-        posed = shared(family) if family else (stops, stops.problem.n_segments)
-        found[key] = plan(*posed, swarm, RUNS[full])
+        objective = shared(family) if family else stops
+        found[key] = plan(objective, stops.problem.n_segments, swarm, RUNS[full])
         del found[key]["descent"]
     medians, ends = {}, {}
     for key in _DRAWN:

@@ -37,7 +37,17 @@ class FullStops:
         return np.where(kept, durations.sum(axis=1), np.inf)
 
     def trajectory(self, durations: Array) -> Trajectory:
-        """Compute the motion of one candidate, shape (n_segments,) [s]."""
+        """Compute the motion of one candidate.
+
+        Parameters
+        ----------
+        durations : Array, shape (n_segments,) [s]
+            Of the segments.
+
+        Returns
+        -------
+        Trajectory
+        """
         t, x = np.asarray(durations), self.problem.waypoints
         c = np.diff(x, axis=0)[:, :, None] * _POWERS / t[:, None, None] ** np.arange(6)
         c[:, :, 0] = x[:-1]

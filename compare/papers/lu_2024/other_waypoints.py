@@ -25,14 +25,14 @@ from formulations.optima.family.optimum import local_optimum
 from formulations.problem.arrays import Array
 from metaheuristics import algorithm, minimise
 
-SETS = {False: 10, True: 50}
+SETS = {False: 10, True: 30}
 FAMILIES_COMPARED = ("b-spline-5", "quintic")
-_BUDGET = {False: 5000, True: 20_000}  # evaluations of a start
+_BUDGET = {False: 5000, True: 10_000}  # evaluations of a start
 _STARTS = {False: 1, True: 3}  # where the first one finds a feasible shape
-_ALL_STARTS = {False: 6, True: 30}  # where none does
+_ALL_STARTS = {False: 6, True: 20}  # where none does
 _WORST = 1e6  # s; above every time
 _SAME = 1e-3  # rad; ends of two starts that count as the same
-_NLP = 120.0  # s, of the nonlinear program where no start found a feasible shape
+_NLP = 30.0  # s, of the nonlinear program where no start found a feasible shape
 
 
 def search(problem: Problem, full: bool) -> dict[str, Any]:
@@ -103,7 +103,18 @@ def _program(problem: Problem) -> str:
 
 
 def make_sets(full: bool) -> list[dict[str, Any]]:
-    """Search for the best motion of both families on each set of waypoints."""
+    """Search for the best motion of both families on each set of waypoints.
+
+    Parameters
+    ----------
+    full : bool
+        More sets, starts and evaluations.
+
+    Returns
+    -------
+    list of dict
+        By set: its seed, and what ``search`` found in each family.
+    """
     return [
         {"seed": seed}
         | {
@@ -115,7 +126,17 @@ def make_sets(full: bool) -> list[dict[str, Any]]:
 
 
 def sets_table(sets: list[dict[str, Any]]) -> Table:
-    """Show each set: the best time of both families, or how far from feasible the best shape is."""
+    """Show each set: the best time of both families, or how far from feasible the best shape is.
+
+    Parameters
+    ----------
+    sets : list of dict
+        Of ``make_sets``.
+
+    Returns
+    -------
+    Table
+    """
     rows = []
     for entry in sets:
         spline_5, quintic = (entry[name] for name in FAMILIES_COMPARED)
@@ -144,7 +165,17 @@ def _told(found: dict[str, Any]) -> str:
 
 
 def sets_remarks(sets: list[dict[str, Any]]) -> list[str]:
-    """Say which family fails on which sets, and which is the shorter one on the others."""
+    """Say which family fails on which sets, and which is the shorter one on the others.
+
+    Parameters
+    ----------
+    sets : list of dict
+        Of ``make_sets``.
+
+    Returns
+    -------
+    list of str
+    """
     failed = {
         name: [entry for entry in sets if entry[name]["seconds"] is None] for name in FAMILIES_COMPARED
     }

@@ -91,7 +91,7 @@ def plan(
     }
 
 
-def shared(family: str) -> tuple[Objective, int]:
+def shared(family: str) -> Objective:
     """Pose the case z1 in one spline family as the paper's swarm sees it.
 
     Parameters
@@ -101,26 +101,57 @@ def shared(family: str) -> tuple[Objective, int]:
 
     Returns
     -------
-    (Objective, int)
-        The first two arguments of ``plan``.
+    Objective
+        Infinite for a candidate that breaks a limit.
     """
-    problem = task(family)
-    return Objective(problem, stretch=False), problem.n_segments
+    return Objective(task(family), stretch=False)
 
 
 def losses(found: dict[str, Any]) -> list[float]:
-    """Times of all runs of ``plan`` [s]; infinite where a run found nothing feasible."""
+    """Times of all runs; infinite where a run found nothing feasible.
+
+    Parameters
+    ----------
+    found : dict
+        Of ``plan``.
+
+    Returns
+    -------
+    list of float [s]
+    """
     return [np.inf if seconds is None else seconds for seconds in found["seconds"]]
 
 
 def solved(found: dict[str, Any]) -> str:
-    """How many runs of ``plan`` found a motion within the limits."""
+    """Say how many runs found a motion within the limits.
+
+    Parameters
+    ----------
+    found : dict
+        Of ``plan``.
+
+    Returns
+    -------
+    str
+    """
     times = found["seconds"]
     return f"{sum(seconds is not None for seconds in times)} of {len(times)}"
 
 
 def between(found: Estimate, digits: int = 2) -> str:
-    """Write a time with its interval: 17.67 (16.58 to 17.84)."""
+    """Write a time with its interval: 17.67 (16.58 to 17.84).
+
+    Parameters
+    ----------
+    found : Estimate
+        Of ``medians.median_of`` [s].
+    digits : int
+        Decimals.
+
+    Returns
+    -------
+    str
+    """
     if not np.isfinite(found.value):
         return "none"
     if not np.isfinite(found.low):
@@ -130,7 +161,18 @@ def between(found: Estimate, digits: int = 2) -> str:
 
 
 def printed_total(by: str) -> str:
-    """Total time as the paper prints it [s]."""
+    """Return a total time as the paper prints it.
+
+    Parameters
+    ----------
+    by : str
+        The method, as ``printed.toml`` names it.
+
+    Returns
+    -------
+    str
+        Seconds.
+    """
     return str(next(t.value for t in load_papers("z1")[0].totals if t.by == by))
 
 

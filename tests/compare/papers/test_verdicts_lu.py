@@ -99,7 +99,8 @@ def test_a_constant_reaches_the_swarm() -> None:
 
 
 def test_no_motion_at_all_has_one_number() -> None:
-    report = ladder(load("z1"), rungs=("free_form_lower",)).seconds("free_form_lower")
+    keys = ("displacement", "ruckig_end_to_end", "free_form_lower", "free_form", "ruckig_stop_and_go")
+    report = ladder(load("z1"), rungs=keys).seconds("free_form_lower")
     assert every_motion(task("b-spline-5")) == every_motion(task("quintic")) == report
     assert report == pytest.approx(12.958604, abs=1e-5)
 
