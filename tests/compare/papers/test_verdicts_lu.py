@@ -223,7 +223,7 @@ def test_remarks_on_further_sets() -> None:
 
     sets = [
         {"seed": 0, "b-spline-5": some(9.0), "quintic": some(10.0)},
-        {"seed": 1, "b-spline-5": NONE, "quintic": some(10.0)},
+        {"seed": 1, "b-spline-5": NONE, "quintic": some(10.0), "b-spline-3": NONE},
         {"seed": 2, "b-spline-5": some(11.0), "quintic": some(10.0)},
     ]
     told = other_waypoints.sets_remarks(sets)
@@ -232,10 +232,13 @@ def test_remarks_on_further_sets() -> None:
     assert "Set 1: no B-spline" in told[1]
     assert "3 starts. 2 of them end at the same least excess, 0.100 rad" in told[1]
     assert "no proof" in told[1]
+    assert told[1].endswith("degree, 3, 3 starts find none either: 0.1000 rad.")
     assert "(2 sets) the B-spline is the shorter one on 1," in told[2]
     assert told[2].endswith("Sets without a B-spline: 1.")
     cells = other_waypoints.sets_table(sets).rows
     assert [row[3] for row in cells] == ["10.0\u00a0%", "", "-10.0\u00a0%"]
     assert re.search(r"0\.100 rad \(5\.7 deg\) out", cells[1][1])
+    sets[1]["b-spline-3"] = some(12.0)
+    assert other_waypoints.sets_remarks(sets)[1].endswith("degree, 3, there is one: 12.000 s.")
     sets[0]["quintic"] = NONE
     assert "The B-spline fails on 1, the quintic on 1." in other_waypoints.sets_remarks(sets)[0]
