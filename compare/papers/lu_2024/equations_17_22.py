@@ -55,8 +55,8 @@ def show_constants(data: dict[str, Any]) -> Shown:
     worse = [name for name, gain in gains.items() if gain.high < 0.0]
     remarks = [
         f"Shown by {runs} runs to be better than the default: {listed(better)}; to be worse: "
-        f"{listed(worse)}. Of "
-        f"{len(others) - len(better) - len(worse)} of {len(others)} readings these runs decide nothing.",
+        f"{listed(worse)}. For "
+        f"{len(others) - len(better) - len(worse)} of the {len(others)} other readings they decide nothing.",
         "The study of readings (timebound readings) runs the same values on other tasks with the exact "
         "stretch.",
     ]

@@ -71,7 +71,7 @@ def test_constants_are_judged_by_their_intervals() -> None:
         for name, end in zip(names, ends, strict=True)
     }
     told = equations_17_22.show_constants(data).remarks[0]
-    assert "better than the default: b = 2; to be worse: s = 50. Of 1 of 3 readings" in told
+    assert "better than the default: b = 2; to be worse: s = 50. For 1 of the 3 other readings" in told
 
 
 def test_every_reading_of_b_and_s_runs_once(monkeypatch: pytest.MonkeyPatch) -> None:
