@@ -8,6 +8,7 @@ from formulations.motion.files.motion_file import read_motion, read_points, writ
 from formulations.motion.trajectory import Trajectory
 from formulations.motion.verdict import Verdict, check
 from formulations.optima.at_rate.export import Export, export_motion
+from formulations.optima.family.chord_lengths import chord_lengths
 from formulations.optima.family.optimum import FamilyOptimum, family_optimum
 from formulations.optima.family.papers_rule import longest_segment
 from formulations.optima.free_form import FreeForm, Sensitivity, free_form
@@ -46,6 +47,7 @@ __all__ = [
     "UnsupportedProblem",
     "Verdict",
     "check",
+    "chord_lengths",
     "each_joint_alone",
     "export_motion",
     "family_bound",

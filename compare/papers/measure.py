@@ -12,7 +12,7 @@ from compare.audit.motion.printed_motion import PrintedMotion
 from compare.audit.paper import Paper, PrintedTimes
 from compare.benchmark.grade import Graded, Run, durations_of, grade
 from compare.benchmark.protocol import Budget
-from formulations import FAMILIES, Problem, Trajectory, Verdict, check, family_bound
+from formulations import FAMILIES, Problem, Trajectory, Verdict, check, family_bound, ladder
 from formulations.motion.verdict import QUANTITIES
 from formulations.problem.arrays import Array
 
@@ -86,6 +86,24 @@ def least(problem: Problem) -> dict[str, Any]:
     found = family_bound(problem, gap=1e-6)
     durations = None if found.durations is None else found.durations.tolist()
     return {"bound": found.seconds, "optimum": found.upper, "durations": durations}
+
+
+def every_motion(problem: Problem) -> float:
+    """Prove that no motion at all is faster.
+
+    It is the rung of the report's ladder, climbed in the same way, so that chapters and report say one number.
+
+    Parameters
+    ----------
+    problem : Problem
+        The task; its family does not matter.
+
+    Returns
+    -------
+    float [s]
+    """
+    key = "free_form_lower"
+    return ladder(problem, rungs=("free_form", key)).seconds(key) or 0.0
 
 
 def spline(problem: Problem, durations: ArrayLike) -> Trajectory:

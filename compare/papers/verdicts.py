@@ -34,6 +34,7 @@ class Reproduction(StrEnum):
     REPRODUCED = "Reproduced"
     IN_KIND = "Reproduced in kind"
     NOT = "Not reproduced"
+    UNDECIDED = "Not decided by these runs"
 
     @property
     def inside(self) -> str:
@@ -81,6 +82,24 @@ def same_gain(printed: float, found: float) -> Reproduction:
     if abs(found - printed) <= CLOSE * abs(printed):
         return Reproduction.REPRODUCED
     return Reproduction.IN_KIND if found * printed > 0.0 and abs(found) >= NO_GAIN else Reproduction.NOT
+
+
+def shown_gain(printed: float, found: float, low: float, high: float) -> Reproduction:
+    """Judge a gain that was measured by runs, with the interval that they leave.
+
+    Parameters
+    ----------
+    printed, found : float
+        As for ``same_gain``.
+    low, high : float
+        The interval of ``found``.
+
+    Returns
+    -------
+    Reproduction
+        Not decided if the interval has both signs in it; else as ``same_gain``.
+    """
+    return Reproduction.UNDECIDED if low <= 0.0 <= high else same_gain(printed, found)
 
 
 def same_gains(printed: Sequence[float], found: Sequence[float]) -> Reproduction:

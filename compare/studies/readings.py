@@ -64,6 +64,11 @@ READINGS: dict[str, dict[str, tuple[str, dict[str, Any]]]] = {
         "as printed": ("whale-lu-2024-printed", {}),
         "no weight (2016)": ("whale", {}),
     },
+    "Lu 2024, eq. 17: b": {
+        "1": ("whale-lu-2024", {}),
+        "0.5": ("whale-lu-2024", {"b": 0.5}),
+        "2": ("whale-lu-2024", {"b": 2.0}),
+    },
     "Lu 2024, eq. 22: s": {
         "1": ("whale-lu-2024", {}),
         "-0.9": ("whale-lu-2024", {"s": -0.9}),

@@ -1,10 +1,11 @@
 """B-spline through the waypoints, of degree 3 or 5 (Lu & Wang 2024, eq. 1-12; they do not print the degree).
 
-The durations are the differences of the parameters at which the waypoints are passed; chord lengths
-(eq. 5) are one choice of them. The inner knots are running means of these parameters (eq. 6). Velocity and
-acceleration are zero at both ends (sec. 3.2). Therefore the first three control points are equal, and so
-are the last three (eq. 9-12), and there are four more control points and knots than the waypoints alone
-would need: the running means continue over both ends, where the outermost parameter is repeated.
+The durations are the differences of the parameters at which the waypoints are passed; chord lengths (eq. 4,
+5) are one choice of them: ``optima/family/chord_lengths.py``. The inner knots are running means of these
+parameters (eq. 6). Velocity and acceleration are zero at both ends (sec. 3.2). Therefore the first three
+control points are equal, and so are the last three (eq. 9-12), and there are four more control points and
+knots than the waypoints alone would need: the running means continue over both ends, where the outermost
+parameter is repeated.
 
 Equation numbers in this file are those of Lu & Wang 2024.
 """

@@ -159,7 +159,8 @@ def family_optimum(
         if deadline.over:
             break
         times = np.array([start.seconds for start in ended])
-        if costly and len(ended) == _AGREEING and np.ptp(times) <= 1e-7 * times.min():
+        agreeing = len(ended) == _AGREEING and times.max() <= times.min() * (1.0 + 1e-7)
+        if costly and agreeing and np.isfinite(times).all():
             break
     best = min(ended, key=lambda start: start.seconds)
     if not np.isfinite(best.seconds):

@@ -9,7 +9,6 @@ import matplotlib.pyplot as plt
 import pytest
 
 from compare.papers.li_2022 import table_3 as li_table_3
-from compare.papers.lu_2024 import figure_1, figures_5_8
 from compare.papers.measure import judged
 from compare.papers.wang_2025 import figures_4_5, joint_1, table_8, table_9
 from compare.papers.zhang_2025 import figures_6_9, table_3, table_4
@@ -198,48 +197,6 @@ def test_zhou_figures() -> None:
     assert "not reproduced" in figures_5_7.show_path(plans | {"miss": [0.04] * 4}).remarks[0]
     assert "is reproduced" in figures_5_7.show_path(plans | {"miss": [0.0001] * 4}).remarks[0]
     plt.close("all")
-
-
-# --- Lu 2024 --------------------------------------------------------------------------------------
-
-
-def test_lu_figure_1() -> None:
-    data = figure_1.make_chaos(False)
-    assert "is not reproduced" in figure_1.show_chaos(data).remarks[0]
-    data["found"]["an orbit per coordinate, beta 0.5"]["discrepancy"] = [1e-6] * 3
-    assert "is reproduced" in figure_1.show_chaos(data).remarks[0]
-    plt.close("all")
-
-
-def lu(bspline: float, quintic: float, optima: tuple[float, float]) -> list[str]:
-    def entry(seconds: float) -> dict[str, Any]:
-        return {"median": {"seconds": seconds, "most": "x"}}
-
-    data = {
-        "found": {
-            "b-spline-5": entry(bspline),
-            "quintic": entry(quintic),
-            "b-spline-3": entry(bspline),
-            "quintic with the paper's whales": entry(quintic),
-        },
-        "optima": dict(zip(("b-spline-5", "quintic"), optima, strict=True)),
-        "others": [{"b-spline-5": bspline, "quintic": quintic}],
-        "ends": {"b-spline-5": {"jump": 1e-12, "edge": 1e-12}},
-    }
-    return figures_5_8._remarks(data)
-
-
-def test_lu_figures_6_to_8() -> None:
-    # printed: 11.71 against 13.08 s, 10.5 % shorter
-    near, kind, other = lu(9.0, 10.0, (8.9, 9.9)), lu(9.8, 10.0, (8.0, 8.1)), lu(10.0, 9.0, (9.9, 8.9))
-    assert near[1].startswith("Reproduced: the B-spline is 10.0")
-    assert "the B-spline is 10.1\u00a0% shorter, 101 % of the difference above" in near[2]
-    assert kind[1].startswith("Reproduced in kind: the B-spline is 2.0")
-    assert "the B-spline is 1.2\u00a0% shorter, 62 % of the difference above" in kind[2]
-    assert other[1].startswith("Not reproduced: the B-spline is 11.1")
-    assert "longer than the quintic" in other[1]
-    assert "shorter one on 0" in other[3]
-    assert "as the paper says" in near[-1]
 
 
 # --- Zhang 2025 -----------------------------------------------------------------------------------
