@@ -16,6 +16,7 @@ from compare.audit.findings.points import points_of
 from compare.audit.findings.together import ranking_findings, rule_findings
 from compare.audit.findings.unplaced import unplaced_findings
 from compare.audit.findings.vectors import motion_findings
+from compare.audit.hints import QUESTIONS, Hint, hints_of
 from compare.audit.judged import JudgedTimes
 from compare.audit.motion.printed_motion import PrintedMotion
 from compare.audit.motion.ranged import Undecided
@@ -24,11 +25,12 @@ from compare.audit.paper import Paper
 
 @dataclass(frozen=True)
 class Audit:
-    """The motions of a paper and all findings about it."""
+    """The motions of a paper, all findings about it, and changes that would explain some of them."""
 
     paper: Paper
     motions: tuple[PrintedMotion, ...]
     findings: tuple[Finding, ...]
+    hints: tuple[Hint, ...] = ()
 
     @property
     def faults(self) -> list[Finding]:
@@ -66,6 +68,7 @@ class Audit:
                 }
                 for f in [*self.faults, *self.notes]
             ],
+            "hints": [{"question": QUESTIONS[h.kind], "text": h.text, **asdict(h)} for h in self.hints],
         }
 
 
@@ -106,7 +109,9 @@ def audit(paper: Paper, progress: Callable[[str], None] | None = None) -> Audit:
     findings += total_findings(paper, paper.totals)
     findings += table_findings(motions, paper.totals)
     findings += ranking_findings(motions)
-    return Audit(paper, tuple(motions), tuple(findings))
+    if progress is not None:
+        progress("hints")
+    return Audit(paper, tuple(motions), tuple(findings), tuple(hints_of(paper, findings)))
 
 
 def _no_limits(motions: Sequence[PrintedMotion]) -> Finding:

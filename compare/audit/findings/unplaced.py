@@ -7,7 +7,6 @@ import numpy as np
 from compare.audit.findings import Finding
 from compare.audit.paper import UNITS, Paper
 from compare.audit.paper.words import number
-from formulations.arms import load_arm
 from formulations.problem.arrays import Array
 
 
@@ -71,7 +70,7 @@ def longest_with_stops(paper: Paper, derivatives: Array) -> float:
     float [s]
     """
     assert paper.arm is not None
-    position = load_arm(paper.arm).position
+    position = paper.arm.position
     d = position[:, 1] - position[:, 0]
     velocity, acceleration, _ = derivatives
     reached = d * acceleration >= velocity**2

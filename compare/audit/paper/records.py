@@ -6,9 +6,11 @@ import math
 from dataclasses import dataclass, field
 from typing import Any
 
+from compare.audit.paper.dh import PrintedDH
 from compare.audit.paper.digits import Printed
 from compare.audit.paper.limits import UNREACHED, StatedLimits
 from formulations import InputError, Limits, Problem
+from formulations.arms import Arm
 from formulations.problem.arrays import Array
 
 UNITS = {"rad": 1.0, "deg": math.pi / 180.0}
@@ -73,13 +75,14 @@ class ArithmeticClaim:
 
 @dataclass(frozen=True)
 class Point:
-    """A Cartesian waypoint [m, rad]; waypoint from 0, metre: metres per printed unit of length."""
+    """A Cartesian waypoint; waypoint from 0, metre and radian: m and rad per printed unit."""
 
     where: str
     waypoint: int
     position: tuple[Printed, ...]
     rpy: tuple[Printed, ...] | None
     metre: float
+    radian: float = 1.0
 
 
 @dataclass(frozen=True)
@@ -90,18 +93,22 @@ class Paper:
     ----------
     name : str
         Of the case with the same task, or of the file.
+    arm : Arm or None
+        A shipped one, or that of the printed DH table.
     limited : tuple of str
         The derivatives that the paper limits.
-    unit : str
-        Of angles, for people.
+    unit, waypoint_unit : str
+        Of angles, for people; of the waypoints, as printed.
     waypoints, halves : Array, shape (n_waypoints, dof) [rad], or None
         The joint angles and half units of their last digits; None if they are not printed.
     stated : dict
         Limits by the name of their table.
     rows, totals, claims, points : tuple
         Time vectors, totals without one, claimed arithmetic, Cartesian waypoints.
+    dh : PrintedDH or None
+        The DH table, if the file prints it.
     settings : dict
-        What the tables and figures need beside the audit, by name (``keys.SETTINGS``).
+        What the tables and figures need beside the audit, by name (``settings_format.SETTINGS``).
     """
 
     name: str
@@ -109,7 +116,7 @@ class Paper:
     source: str
     notes: str
     family: str
-    arm: str | None
+    arm: Arm | None
     limited: tuple[str, ...]
     unit: str
     n_waypoints: int
@@ -120,6 +127,8 @@ class Paper:
     totals: tuple[Total, ...]
     claims: tuple[ArithmeticClaim, ...]
     points: tuple[Point, ...]
+    dh: PrintedDH | None = None
+    waypoint_unit: str = "rad"
     settings: dict[str, dict[str, Any]] = field(default_factory=dict)
 
     @property

@@ -1,0 +1,126 @@
+"""Other readings of a DH table: its form, its units, its columns, joint offsets, one sign."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from dataclasses import replace
+from functools import cache
+from itertools import combinations, product
+
+import numpy as np
+
+from compare.audit.findings.points import position_of, residual
+from compare.audit.hints.hint import Change
+from compare.audit.paper import Paper
+from compare.audit.paper.dh import PrintedDH
+from formulations.arms import DHTable
+from formulations.arms.dh_table import FORMS, METRES, RADIANS
+from formulations.problem.arrays import Array
+
+_TURNS = (-90.0, 90.0, 180.0)  # deg: offsets that papers leave out
+_MOST_OFFSETS = 3  # joints with such an offset
+_KEPT = 40  # readings with the smallest misses, which are judged with their rounding
+
+
+def dh_readings(paper: Paper) -> list[tuple[int, Change]]:
+    """Find the readings of the printed DH table that lead nearest to the printed points.
+
+    Parameters
+    ----------
+    paper : Paper
+        What the paper prints.
+
+    Returns
+    -------
+    list of (int, Change)
+        How many things each reading changes, and the reading; the fewest first. Empty without a DH table,
+        points or waypoints.
+    """
+    if paper.dh is None or paper.waypoints is None or not paper.points:
+        return []
+    joints = paper.waypoints[[point.waypoint for point in paper.points]]
+    wanted = np.array([position_of(point) for point in paper.points])
+    shifts = _offsets(paper.dh.table.dof)
+    found: list[tuple[float, int, list[str], DHTable, Array]] = []
+    for told, table in _tables(paper.dh.table):
+        chain = table.chain()
+        turned = joints + (chain.sign * shifts)[:, None]
+        miss = np.linalg.norm(chain.forward(turned)[..., :3, 3] - wanted, axis=-1)
+        # a misprinted point must not hide the reading that leads to the others
+        score = np.median(miss, axis=1) if len(wanted) > 2 else miss.max(axis=1)
+        cost = len(told) + (shifts != 0.0).sum(axis=1)
+        for i in np.lexsort((cost, np.round(score, 5)))[:_KEPT]:
+            if cost[i]:
+                found.append((round(float(score[i]), 5), int(cost[i]), told, table, shifts[i]))
+    found.sort(key=lambda entry: entry[:2])
+    readings = [
+        (cost, _change(paper, paper.dh, told, table, shift))
+        for _, cost, told, table, shift in found[:_KEPT]
+    ]
+    return sorted(readings, key=lambda reading: reading[0])
+
+
+def largest_miss(paper: Paper) -> float:
+    """Largest distance between the tool and a printed point.
+
+    Parameters
+    ----------
+    paper : Paper
+        With an arm and points.
+
+    Returns
+    -------
+    float [m]
+    """
+    return max(float(np.linalg.norm(residual(paper, point).apart)) for point in paper.points)
+
+
+def _change(paper: Paper, dh: PrintedDH, told: list[str], table: DHTable, shift: Array) -> Change:
+    offset = table.offset + shift / RADIANS[table.angle]
+    read = replace(dh, table=replace(table, offset=offset))
+    turns = [
+        f"theta{j + 1} {'+' if turn > 0.0 else '-'} {abs(np.rad2deg(turn)):.0f} deg"
+        for j, turn in enumerate(shift)
+        if turn
+    ]
+    words = [*told, *([f"joint offsets {', '.join(turns)}"] if turns else [])]
+    told_all = f"{dh.where} read with {' and '.join(words)}"
+    return Change("dh", told_all, replace(paper, dh=read, arm=read.arm(paper.name)), whole=False)
+
+
+def _tables(table: DHTable) -> Iterator[tuple[list[str], DHTable]]:
+    """Readings of the table without offsets: form, units and columns together, or form and one sign."""
+    for form in FORMS:
+        other_form = [] if form == table.form else [f"the {form} form (stated: {table.form})"]
+        for length, angle, crossed in product(METRES, RADIANS, (False, True)):
+            told = list(other_form)
+            if length != table.length:
+                told.append(f"lengths in {length} (stated: {table.length})")
+            if angle != table.angle:
+                told.append(f"angles in {angle} (stated: {table.angle})")
+            if crossed:
+                told.append("columns a and d swapped")
+            a, d = (table.d, table.a) if crossed else (table.a, table.d)
+            yield told, replace(table, form=form, length=length, angle=angle, a=a, d=d)
+        for part in ("alpha", "a", "d", "sign"):
+            for j in np.flatnonzero(getattr(table, part)):
+                column = getattr(table, part).copy()
+                column[j] *= -1.0
+                what = "sense of rotation" if part == "sign" else part
+                told = [*other_form, f"the other {what} of joint {j + 1}"]
+                if part != "sign":
+                    told[-1] = f"the other sign of {part} of joint {j + 1}"
+                yield told, replace(table, form=form, **{part: column})
+
+
+@cache
+def _offsets(dof: int) -> Array:
+    """No offset, and quarter and half turns of up to three joints, (n, dof) [rad]."""
+    found = [np.zeros(dof)]
+    for count in range(1, min(_MOST_OFFSETS, dof) + 1):
+        for which in combinations(range(dof), count):
+            for turns in product(_TURNS, repeat=count):
+                one = np.zeros(dof)
+                one[list(which)] = np.deg2rad(turns)
+                found.append(one)
+    return np.array(found)

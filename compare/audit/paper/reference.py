@@ -1,0 +1,102 @@
+"""The reference of the keys (docs/paper_file.md) and the template of a paper file, made of ``FORMAT``.
+
+``python -m compare.audit.paper.reference > docs/paper_file.md`` writes the page anew.
+"""
+
+from __future__ import annotations
+
+import textwrap
+from collections.abc import Iterator, Mapping
+
+from compare.audit.paper.format import FORMAT
+from compare.audit.paper.keys import Key, Table
+
+_WIDTH = 100  # characters of a comment
+
+_PAGE = """\
+# The paper file: what `timebound audit FILE` reads
+
+`timebound audit --template mine.toml` writes a small paper that is sound, with a comment on every line. Put the numbers
+of your paper in their place and delete what it does not print; `timebound audit mine.toml` judges it. Only `family` and
+`[waypoints]` are needed.
+
+- A number in quotes is rounded and stands as it is printed: `"0.8660"` is known to half a unit of its last digit, and a
+  verdict holds for every number that prints like it. A number without quotes is exact.
+- An unknown key is refused, with the nearest known one: a key that nobody reads would switch off a check in silence.
+- Joints and waypoints count from 1. Times are in seconds.
+- Where numbers are wrong, the audit also tries one change at a time (a unit, a sign, two columns, the form of the DH
+  table) and names each that would explain them: the hints.
+
+This page is made of `compare/audit/paper/format.py`, which the reader of the file uses too.
+"""
+
+
+def reference() -> str:
+    """Write the reference of all keys.
+
+    Returns
+    -------
+    str
+        Markdown: one table of keys per table of the file.
+    """
+    return "\n".join([_PAGE, *_sections("", Table("", FORMAT)), ""])
+
+
+def template() -> str:
+    """Write a paper file with every key that a reviewer may need, each with its comment.
+
+    Returns
+    -------
+    str
+        TOML: a paper that the audit reads and finds nothing wrong with.
+    """
+    lines = [
+        "# A paper as data. Numbers in quotes are rounded, digits as printed; numbers without quotes are",
+        "# exact. Replace these by your paper's and delete what it does not print; lines that begin with",
+        '# "#:" are further keys. Needed are the keys that say so.',
+        *_body(FORMAT, ""),
+    ]
+    for name, entry in FORMAT.items():
+        if isinstance(entry, Table) and entry is not FORMAT["settings"]:
+            mark = "" if entry.shown else "#:"
+            lines += ["", *_comment(f"{entry.meaning}{' Needed.' if entry.needed else ''}")]
+            lines += [f"{mark}{_head(name, entry)}", *_body(entry.keys, mark)]
+    return "\n".join([*lines, ""])
+
+
+def _head(name: str, table: Table) -> str:
+    return f"[[{name}]]" if table.many else f"[{name}]"
+
+
+def _body(keys: Mapping[str, Key | Table], mark: str) -> Iterator[str]:
+    for name, key in keys.items():
+        if isinstance(key, Key):
+            unit = f" [{key.unit}]" if key.unit else ""
+            yield from _comment(f"{key.meaning}{unit}{' (needed)' if key.needed else ''}")
+            yield f"{mark if key.shown or mark else '#:'}{name} = {key.example}"
+
+
+def _comment(text: str) -> list[str]:
+    return textwrap.wrap(text, _WIDTH, initial_indent="# ", subsequent_indent="#   ")
+
+
+def _sections(path: str, table: Table) -> Iterator[str]:
+    rows = [(name, key) for name, key in table.keys.items() if isinstance(key, Key)]
+    if rows:
+        yield "| key | meaning | type | unit | needed | example |"
+        yield "|---|---|---|---|---|---|"
+        for name, key in rows:
+            cells = (f"`{name}`", key.meaning, key.kind, key.unit, "yes" if key.needed else "no")
+            yield f"| {' | '.join(cells)} | `{key.example}` |"
+        yield ""
+    for name, entry in table.keys.items():
+        if isinstance(entry, Table):
+            below = f"{path}.{name}" if path else name
+            needed = "Needed." if entry.needed else "Not needed."
+            repeated = " May stand several times." if entry.many else ""
+            yield f"## `{_head(below, entry)}`\n\n{entry.meaning} {needed}{repeated}\n"
+            yield from _sections(below, entry)
+
+
+if __name__ == "__main__":
+    print(reference(), end="")
