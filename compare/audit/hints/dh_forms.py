@@ -49,9 +49,11 @@ def dh_readings(paper: Paper) -> list[tuple[int, Change]]:
         # a misprinted point must not hide the reading that leads to the others
         score = np.median(miss, axis=1) if len(wanted) > 2 else miss.max(axis=1)
         cost = len(told) + (shifts != 0.0).sum(axis=1)
-        for i in np.lexsort((cost, np.round(score, 5)))[:_KEPT]:
-            if cost[i]:
-                found.append((round(float(score[i]), 5), int(cost[i]), told, table, shifts[i]))
+        found += [
+            (round(float(score[i]), 5), int(cost[i]), told, table, shifts[i])
+            for i in np.lexsort((cost, np.round(score, 5)))[:_KEPT]
+            if cost[i]
+        ]
     found.sort(key=lambda entry: entry[:2])
     readings = [
         (cost, _change(paper, paper.dh, told, table, shift))

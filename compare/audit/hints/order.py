@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterator
+from collections.abc import Iterator
 from dataclasses import replace
 from itertools import combinations
 
@@ -144,29 +144,24 @@ def _waypoint_swaps(paper: Paper) -> Iterator[Change]:
 
 def _limit_swaps(paper: Paper, name: str, stated: StatedLimits) -> Iterator[Change]:
     dof = stated.derivatives.shape[1]
-    chosen: list[tuple[str, Callable[[list[int]], StatedLimits]]] = [
-        ("limits", lambda order: _ordered(stated, [0, 1, 2], order, position=True))
-    ]
-    for k in range(3):
-        chosen.append(
-            (f"{QUANTITIES[k + 1]} limits", lambda order, k=k: _ordered(stated, [k], order))  # type: ignore[misc]
-        )
-    for what, make in chosen:
+    limited = [k for k in range(3) if np.isfinite(stated.derivatives[k]).any()]
+    chosen = [("limits", limited, True)]
+    chosen += [(f"{QUANTITIES[k + 1]} limits", [k], False) for k in limited]
+    for what, quantities, position in chosen:
         for a, b in combinations(range(dof), 2):
-            changed = make(_swapped(dof, a, b))
+            changed = _ordered(stated, quantities, _swapped(dof, a, b), position=position)
             same = np.array_equal(changed.derivatives, stated.derivatives)
-            if same and np.array_equal(changed.position, stated.position):
-                continue
-            told = f"joints {a + 1} and {b + 1} of the {what} of {name} swapped"
-            yield Change("swap", told, replace(paper, stated=paper.stated | {name: changed}))
+            if not same or not np.array_equal(changed.position, stated.position):
+                told = f"joints {a + 1} and {b + 1} of the {what} of {name} swapped"
+                yield Change("swap", told, replace(paper, stated=paper.stated | {name: changed}))
 
 
 def _ordered(
-    stated: StatedLimits, orders: list[int], order: list[int], position: bool = False
+    stated: StatedLimits, quantities: list[int], order: list[int], *, position: bool
 ) -> StatedLimits:
     derivatives, halves = stated.derivatives.copy(), stated.derivative_halves.copy()
-    derivatives[orders], halves[orders] = (
-        part[orders][:, order] for part in (stated.derivatives, stated.derivative_halves)
+    derivatives[quantities], halves[quantities] = (
+        part[quantities][:, order] for part in (stated.derivatives, stated.derivative_halves)
     )
     return replace(
         stated,

@@ -116,8 +116,8 @@ class _Search:
         """Write a change as a hint."""
         remark, change = "", best.change
         if change.kind == "dh":
-            before, after = (1e3 * largest_miss(paper) for paper in (self.paper, change.paper))
-            remark = f"the largest miss of a point falls from {before:.3g} mm to {after:.3g} mm"
+            was, remains = (1e3 * largest_miss(paper) for paper in (self.paper, change.paper))
+            remark = f"the largest miss of a point falls from {was:.3g} mm to {remains:.3g} mm"
         faulty, places = self.faulty | self.longest, set(best.places)
         after = self.places.states(change.paper, longest=True) if self.longest else {}
         places |= {place for place in self.longest if after[place].sound}

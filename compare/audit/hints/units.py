@@ -174,13 +174,12 @@ def _waypoints(paper: Paper) -> Iterator[Change]:
     other = _OTHER_ANGLE[paper.waypoint_unit]
     factor = UNITS[other] / UNITS[paper.waypoint_unit]
     n, dof = paper.waypoints.shape
-    whole = np.ones((n, dof), dtype=bool)
-    chosen = [("all waypoints", whole)]
-    for i in range(n):
-        chosen.append((f"waypoint {i + 1}", whole & (np.arange(n) == i)[:, None]))
-    if dof > 1:
-        for j in range(dof):
-            chosen.append((f"joint {j + 1} of the waypoints", whole & (np.arange(dof) == j)))
+    rows, columns = np.indices((n, dof))
+    chosen = [
+        ("all waypoints", np.ones((n, dof), dtype=bool)),
+        *((f"waypoint {i + 1}", rows == i) for i in range(n)),
+        *((f"joint {j + 1} of the waypoints", columns == j) for j in range(dof if dof > 1 else 0)),
+    ]
     for told, mask in chosen:
         factors = np.where(mask, factor, 1.0)
         yield Change(

@@ -7,7 +7,7 @@ The examples belong to one paper, which is made up and sound.
 
 from __future__ import annotations
 
-from compare.audit.paper.keys import Key, Table
+from compare.audit.paper.keys import Key, KeyTable
 from compare.audit.paper.settings_format import SETTINGS
 from formulations import FAMILIES
 from formulations.arms import ARMS
@@ -117,7 +117,7 @@ _VARIANT = {
     "value": Key("number", "the angle with the other sign", '"-20.0"', "unit of the waypoints", needed=True),
 }  # fmt: skip
 
-FORMAT: dict[str, Key | Table] = {
+FORMAT: dict[str, Key | KeyTable] = {
     "title": Key("text", "paper in a few words", '"Planar arm, 3-5-3, PSO"', shown=True),
     "source": Key("text", "authors, journal, year", '"a made-up example"', shown=True),
     "notes": Key("text", "what a reader of the verdicts has to know", '"Replace every number by your own."',
@@ -128,15 +128,15 @@ FORMAT: dict[str, Key | Table] = {
     "limited": Key("list", "derivatives that the paper limits: velocity, acceleration, jerk; velocity if "
                    "left out", '["velocity", "acceleration"]', shown=True),
     "arm": Key("text", f"a shipped arm ({', '.join(ARMS)}) in place of [dh]", '"ur5"'),
-    "waypoints": Table("The joint angles that the motion passes.", _WAYPOINTS, needed=True, shown=True),
-    "dh": Table("The Denavit-Hartenberg table of the arm; the printed points are judged through it.", _DH,
+    "waypoints": KeyTable("The joint angles that the motion passes.", _WAYPOINTS, needed=True, shown=True),
+    "dh": KeyTable("The Denavit-Hartenberg table of the arm; the printed points are judged through it.", _DH,
                 shown=True),
-    "limits": Table("Stated limits, one table each.", _LIMITS, many=True, shown=True),
-    "table": Table("Time vectors of one method.", _TABLE, many=True, shown=True),
-    "totals": Table("Total times without a time vector.", _TOTALS, many=True, shown=True),
-    "claim": Table("Arithmetic in the text.", _CLAIM, many=True, shown=True),
-    "point": Table("A Cartesian point of the tool that belongs to a waypoint.", _POINT, many=True, shown=True),
-    "variant": Table("Another reading of one joint angle, audited beside the printed one.", _VARIANT,
+    "limits": KeyTable("Stated limits, one table each.", _LIMITS, many=True, shown=True),
+    "table": KeyTable("Time vectors of one method.", _TABLE, many=True, shown=True),
+    "totals": KeyTable("Total times without a time vector.", _TOTALS, many=True, shown=True),
+    "claim": KeyTable("Arithmetic in the text.", _CLAIM, many=True, shown=True),
+    "point": KeyTable("A Cartesian point of the tool that belongs to a waypoint.", _POINT, many=True, shown=True),
+    "variant": KeyTable("Another reading of one joint angle, audited beside the printed one.", _VARIANT,
                      many=True),
     "settings": SETTINGS,
 }  # fmt: skip

@@ -52,7 +52,7 @@ class Key:
 
 
 @dataclass(frozen=True)
-class Table:
+class KeyTable:
     """A table of a file, or an array of tables.
 
     Attributes
@@ -60,7 +60,7 @@ class Table:
     meaning : str
         One sentence.
     keys : dict
-        Key or Table by name.
+        Key or KeyTable by name.
     many : bool
         Whether it is an array of tables, [[name]].
     needed, shown : bool
@@ -68,13 +68,13 @@ class Table:
     """
 
     meaning: str
-    keys: Mapping[str, Key | Table]
+    keys: Mapping[str, Key | KeyTable]
     many: bool = False
     needed: bool = False
     shown: bool = False
 
 
-def check_keys(data: Mapping[str, Any], known: Mapping[str, Key | Table], place: str = "") -> None:
+def check_keys(data: Mapping[str, Any], known: Mapping[str, Key | KeyTable], place: str = "") -> None:
     """Refuse unknown and missing keys and values of another type, at every depth.
 
     Parameters
@@ -82,9 +82,9 @@ def check_keys(data: Mapping[str, Any], known: Mapping[str, Key | Table], place:
     data : mapping
         A file or one of its tables, as TOML gives it.
     known : mapping
-        Key or Table by name: what may stand there.
+        Key or KeyTable by name: what may stand there.
     place : str
-        Where the table stands, for the message: "table: Table 2: ".
+        Where the table stands, for the message: "table: KeyTable 2: ".
 
     Raises
     ------

@@ -9,23 +9,24 @@ import textwrap
 from collections.abc import Iterator, Mapping
 
 from compare.audit.paper.format import FORMAT
-from compare.audit.paper.keys import Key, Table
+from compare.audit.paper.keys import Key, KeyTable
 
 _WIDTH = 100  # characters of a comment
 
 _PAGE = """\
 # The paper file: what `timebound audit FILE` reads
 
-`timebound audit --template mine.toml` writes a small paper that is sound, with a comment on every line. Put the numbers
-of your paper in their place and delete what it does not print; `timebound audit mine.toml` judges it. Only `family` and
-`[waypoints]` are needed.
+`timebound audit --template mine.toml` writes a small paper that is sound, with a comment on every line. Put
+the numbers of your paper in their place and delete what it does not print; `timebound audit mine.toml` judges
+it. Only `family` and `[waypoints]` are needed.
 
-- A number in quotes is rounded and stands as it is printed: `"0.8660"` is known to half a unit of its last digit, and a
-  verdict holds for every number that prints like it. A number without quotes is exact.
-- An unknown key is refused, with the nearest known one: a key that nobody reads would switch off a check in silence.
+- A number in quotes is rounded and stands as it is printed: `"0.8660"` is known to half a unit of its last
+  digit, and a verdict holds for every number that prints like it. A number without quotes is exact.
+- An unknown key is refused, with the nearest known one: a key that nobody reads would switch off a check in
+  silence.
 - Joints and waypoints count from 1. Times are in seconds.
-- Where numbers are wrong, the audit also tries one change at a time (a unit, a sign, two columns, the form of the DH
-  table) and names each that would explain them: the hints.
+- Where numbers are wrong, the audit also tries one change at a time (a unit, a sign, two columns, the form of
+  the DH table) and names each that would explain them: the hints.
 
 This page is made of `compare/audit/paper/format.py`, which the reader of the file uses too.
 """
@@ -39,7 +40,7 @@ def reference() -> str:
     str
         Markdown: one table of keys per table of the file.
     """
-    return "\n".join([_PAGE, *_sections("", Table("", FORMAT)), ""])
+    return "\n".join([_PAGE, *_sections("", KeyTable("", FORMAT)), ""])
 
 
 def template() -> str:
@@ -57,18 +58,18 @@ def template() -> str:
         *_body(FORMAT, ""),
     ]
     for name, entry in FORMAT.items():
-        if isinstance(entry, Table) and entry is not FORMAT["settings"]:
+        if isinstance(entry, KeyTable) and entry is not FORMAT["settings"]:
             mark = "" if entry.shown else "#:"
             lines += ["", *_comment(f"{entry.meaning}{' Needed.' if entry.needed else ''}")]
             lines += [f"{mark}{_head(name, entry)}", *_body(entry.keys, mark)]
     return "\n".join([*lines, ""])
 
 
-def _head(name: str, table: Table) -> str:
+def _head(name: str, table: KeyTable) -> str:
     return f"[[{name}]]" if table.many else f"[{name}]"
 
 
-def _body(keys: Mapping[str, Key | Table], mark: str) -> Iterator[str]:
+def _body(keys: Mapping[str, Key | KeyTable], mark: str) -> Iterator[str]:
     for name, key in keys.items():
         if isinstance(key, Key):
             unit = f" [{key.unit}]" if key.unit else ""
@@ -80,7 +81,7 @@ def _comment(text: str) -> list[str]:
     return textwrap.wrap(text, _WIDTH, initial_indent="# ", subsequent_indent="#   ")
 
 
-def _sections(path: str, table: Table) -> Iterator[str]:
+def _sections(path: str, table: KeyTable) -> Iterator[str]:
     rows = [(name, key) for name, key in table.keys.items() if isinstance(key, Key)]
     if rows:
         yield "| key | meaning | type | unit | needed | example |"
@@ -90,7 +91,7 @@ def _sections(path: str, table: Table) -> Iterator[str]:
             yield f"| {' | '.join(cells)} | `{key.example}` |"
         yield ""
     for name, entry in table.keys.items():
-        if isinstance(entry, Table):
+        if isinstance(entry, KeyTable):
             below = f"{path}.{name}" if path else name
             needed = "Needed." if entry.needed else "Not needed."
             repeated = " May stand several times." if entry.many else ""

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from compare.audit.paper.keys import Key, Table
+from compare.audit.paper.keys import Key, KeyTable
 
 _WHERE = Key("text", "place in the paper", '"sec. 3"')
 _POPULATION = Key("whole number", "individuals of the swarm", "30")
@@ -16,10 +16,10 @@ def _ablation(name: str) -> Key:
     return Key("list", f"factors of {name}, one per function", '["1.2"]')
 
 
-SETTINGS = Table(
+SETTINGS = KeyTable(
     "What the chapters of the shipped papers need beside the audit; the audit does not use it.",
     {
-        "swarm": Table(
+        "swarm": KeyTable(
             "The swarm of the paper.",
             {
                 "where": _WHERE,
@@ -37,7 +37,7 @@ SETTINGS = Table(
                 "high": _HIGH,
             },
         ),
-        "tent": Table(
+        "tent": KeyTable(
             "The picture of the tent map.",
             {
                 "where": _WHERE,
@@ -46,7 +46,7 @@ SETTINGS = Table(
                 "bins": Key("whole number", "bars of the picture", "10"),
             },
         ),
-        "chaos": Table(
+        "chaos": KeyTable(
             "The picture of the chaotic start.",
             {
                 "where": _WHERE,
@@ -57,7 +57,7 @@ SETTINGS = Table(
                 "high": _HIGH,
             },
         ),
-        "ablation": Table(
+        "ablation": KeyTable(
             "The ablation on test functions.",
             {
                 "where": _WHERE,
@@ -67,7 +67,7 @@ SETTINGS = Table(
                 "runs": Key("whole number", "runs per function", "30"),
             },
         ),
-        "ablation_factors": Table(
+        "ablation_factors": KeyTable(
             "The factors that the ablation prints.",
             {
                 "where": _WHERE,
@@ -77,15 +77,15 @@ SETTINGS = Table(
                 "PSO3": _ablation("PSO3"),
             },
         ),
-        "first_plan": Table(
+        "first_plan": KeyTable(
             "The motion before the search.",
             {"where": _WHERE, "times": Key("list", "its durations", '["1.0"]', "s")},
         ),
-        "box": Table(
+        "box": KeyTable(
             "The search box.",
             {"where": _WHERE, "seconds": Key("list", "its lower and upper edge", "[0, 5]", "s")},
         ),
-        "descent": Table(
+        "descent": KeyTable(
             "What the paper reads from its curve of convergence.",
             {
                 "where": _WHERE,
@@ -95,7 +95,7 @@ SETTINGS = Table(
                 ),
             },
         ),
-        "converged": Table(
+        "converged": KeyTable(
             "Iterations to convergence.",
             {
                 "where": _WHERE,
@@ -104,7 +104,7 @@ SETTINGS = Table(
                 "WOA": Key("whole number", "of WOA", "56"),
             },
         ),
-        "arm": Table(
+        "arm": KeyTable(
             "A length of the arm that the paper prints wrong.",
             {"where": _WHERE, "d1": Key("number", "link offset of joint 1", '"0.1305"', "m")},
         ),
