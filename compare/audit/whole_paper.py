@@ -16,6 +16,7 @@ from compare.audit.findings.points import points_of
 from compare.audit.findings.together import ranking_findings, rule_findings
 from compare.audit.findings.unplaced import unplaced_findings
 from compare.audit.findings.vectors import motion_findings
+from compare.audit.findings.waypoints import waypoints_beyond
 from compare.audit.hints import QUESTIONS, Hint, hints_of
 from compare.audit.judged import JudgedTimes
 from compare.audit.motion.printed_motion import PrintedMotion
@@ -86,7 +87,7 @@ def audit(paper: Paper, progress: Callable[[str], None] | None = None) -> Audit:
     -------
     Audit
     """
-    findings = [*claims_of(paper), *points_of(paper)]
+    findings = [*claims_of(paper), *points_of(paper), *waypoints_beyond(paper)]
     motions: list[PrintedMotion] = []
     if paper.waypoints is None:
         findings += unplaced_findings(paper)

@@ -75,7 +75,10 @@ class Hint:
         found = f"{self.of} fault" + ("s" if self.of != 1 else "")
         shown = ", ".join(self.explains[:3])
         more = f" and {len(self.explains) - 3} more" if len(self.explains) > 3 else ""
-        told = f"tried: {self.tried}; this would explain {shown}{more} and remove {self.removes} of {found}"
+        told = f"tried: {self.tried}; "
+        if not self.removes:
+            return f"{told}none of {found} goes, but {self.remark}"
+        told += f"this would explain {shown}{more} and remove {self.removes} of {found}"
         if self.others:
             told += (
                 f" ({self.others} other change{'s' if self.others > 1 else ''} of this kind would, too)"

@@ -1,7 +1,7 @@
 """The places of a paper that can disagree with the rest of it, and whether they do.
 
-A place is a time vector, a point, a sum or a group of totals. It is judged as the audit judges it, for every
-reading of the printed digits, but without proofs: whether a motion keeps its limits needs none.
+A place is a waypoint, a time vector, a point, a sum or a group of totals. It is judged as the audit judges
+it, for every reading of the printed digits, but without proofs: whether a motion keeps its limits needs none.
 """
 
 from __future__ import annotations
@@ -16,6 +16,7 @@ from compare.audit.findings.claims import claims_of
 from compare.audit.findings.points import residual
 from compare.audit.findings.unplaced import unplaced_findings
 from compare.audit.findings.vectors import position_faults
+from compare.audit.findings.waypoints import waypoints_beyond
 from compare.audit.motion.minima import reached
 from compare.audit.motion.printed_motion import PrintedMotion
 from compare.audit.motion.ranged import Undecided
@@ -23,7 +24,7 @@ from compare.audit.paper import Paper, PrintedTimes
 from formulations import FAMILIES, InputError
 from formulations.motion.verdict import TOLERANCE
 
-Place = tuple[str, str]  # what it is (vector, point, sum, totals), and where
+Place = tuple[str, str]  # what it is (waypoint, vector, point, sum, totals), and where
 
 _VECTOR = ("displacement", "minimum", "limits", "other limits")
 _POINT = ("point", "reach")
@@ -33,7 +34,7 @@ _FAR = 1.5  # stretch at the printed digits that rounding does not explain
 
 @dataclass(frozen=True)
 class State:
-    """How one place stands: sound or not, and the share of its limits that a motion uses (0: no motion)."""
+    """How one place stands: sound or not, and the share of its limits that is used (0: it has none)."""
 
     sound: bool
     use: float = 0.0
@@ -62,6 +63,8 @@ def faulty_places(paper: Paper, findings: Sequence[Finding]) -> dict[Place, list
     for finding in findings:
         if finding.kind in _VECTOR:
             what = "vector" if finding.where in vectors else "totals"
+            if finding.where.startswith("waypoint "):
+                what = "waypoint"
         elif finding.kind in _POINT:
             what = "point"
         elif finding.kind == "sum":
@@ -96,6 +99,11 @@ class Places:
         """
         found: dict[Place, State] = {}
         if paper.waypoints is not None:
+            wrong = {finding.where for finding in waypoints_beyond(paper)}
+            farthest = _share_of_range(paper)
+            for i in range(paper.n_waypoints):
+                where = f"waypoint {i + 1}"
+                found["waypoint", where] = FAULTY if where in wrong else State(True, farthest)
             for row in (row for row in paper.rows if longest or not row.of):
                 state = self._vector(paper, row)
                 before = found.get(("vector", row.where), state)
@@ -171,6 +179,14 @@ def _state(motion: PrintedMotion) -> State:
     if not _inside(motion) and position_faults(motion):
         return FAULTY
     return State(True, min(stretch, 1.0))
+
+
+def _share_of_range(paper: Paper) -> float:
+    """Largest joint angle over the largest limit of position; 0 without such limits."""
+    assert paper.waypoints is not None
+    bounds = [stated.position[np.isfinite(stated.position)] for stated in paper.stated.values()]
+    largest = max((float(np.abs(bound).max()) for bound in bounds if bound.size), default=np.inf)
+    return float(np.abs(paper.waypoints).max()) / largest if largest else 0.0
 
 
 def _inside(motion: PrintedMotion) -> bool:

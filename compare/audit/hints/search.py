@@ -12,18 +12,21 @@ from compare.audit.hints.order import other_tables, signs, swaps
 from compare.audit.hints.places import FULL, Place, Places, State, explained, faulty_places
 from compare.audit.hints.units import angle_units, length_units, time_units
 from compare.audit.paper import Paper
+from compare.audit.paper.words import number
 
-_LEAST_USE = 0.5  # a motion that uses less of every limit after a change is not explained by it
+# Share of the limits that something of a kind must use after a change: limits that are far away explain
+# nothing. Degrees and radians differ by a factor of 57.
+_LEAST_USE = {"vector": 0.5, "totals": 0.5, "waypoint": 0.1}
 _NEARER = 0.1  # a reading of the DH table that brings the largest miss below this share is worth a hint
 
 
 @dataclass(frozen=True)
 class _Judged:
-    """A change, the faulty places that it explains, and how well the motions there use their limits."""
+    """A change, the faulty places that it explains, and how far the motions there use their limits."""
 
     change: Change
     places: frozenset[Place]
-    use: float
+    uses: tuple[float, ...]  # stretch of the motions at these places, ascending
     cost: int = 1  # things changed
 
 
@@ -66,12 +69,12 @@ def _best(found: Sequence[_Judged]) -> list[tuple[_Judged, int]]:
     for kind in QUESTIONS:
         group = [judged for judged in found if judged.change.kind == kind]
         if group:
-            best = max(group, key=lambda judged: (len(judged.places), -judged.cost, judged.use))
+            best = max(group, key=lambda judged: (len(judged.places), -judged.cost, judged.uses))
             others = sum(
                 j is not best and j.places == best.places and j.cost == best.cost for j in group
             )
             chosen.append((best, others))
-    chosen.sort(key=lambda entry: -len(entry[0].places))
+    chosen.sort(key=lambda entry: (len(entry[0].places), entry[0].uses), reverse=True)
     return [
         (best, others)
         for best, others in chosen
@@ -109,7 +112,7 @@ class _Search:
             if kept is not None:
                 found.append(kept)
             elif near and not self._spoilt(self.places.states(change.paper)):
-                found.append(_Judged(change, frozenset(), 0.0, cost))
+                found.append(_Judged(change, frozenset(), (), cost))
         return found
 
     def hint(self, best: _Judged, others: int, of: int) -> Hint:
@@ -117,7 +120,10 @@ class _Search:
         remark, change = "", best.change
         if change.kind == "dh":
             was, remains = (1e3 * largest_miss(paper) for paper in (self.paper, change.paper))
-            remark = f"the largest miss of a point falls from {was:.3g} mm to {remains:.3g} mm"
+            remark = f"the largest miss of a point falls from {number(was)} mm to {number(remains)} mm"
+        elif best.uses:
+            stretch = " to ".join(dict.fromkeys(number(use) for use in (best.uses[0], best.uses[-1])))
+            remark = f"the stretch of the motions there is then {stretch}"
         faulty, places = self.faulty | self.longest, set(best.places)
         after = self.places.states(change.paper, longest=True) if self.longest else {}
         places |= {place for place in self.longest if after[place].sound}
@@ -138,12 +144,17 @@ class _Search:
         }
         if not found:
             return None
-        uses = [after[place].use for place in found if place[0] in ("vector", "totals")]
-        if uses and max(uses) < _LEAST_USE and all(w in ("vector", "totals") for w, _ in found):
+        uses = {
+            what: [after[place].use for place in found if place[0] == what]
+            for what in {what for what, _ in found} & set(_LEAST_USE)
+        }
+        points = any(what == "point" for what, _ in found)
+        if not points and any(max(use) < _LEAST_USE[what] for what, use in uses.items()):
             return None
         if change.whole and not self._all_explained(after, found):
             return None
-        return _Judged(change, frozenset(found), min(uses, default=0.0), cost)
+        motions = uses.get("vector", []) + uses.get("totals", [])
+        return _Judged(change, frozenset(found), tuple(sorted(motions)), cost)
 
     def _spoilt(self, after: dict[Place, State]) -> bool:
         """Whether a change makes a sound place faulty, or a motion slow that used its limits fully."""

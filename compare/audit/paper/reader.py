@@ -73,7 +73,7 @@ def _paper(data: dict[str, Any], name: str) -> Paper:
     waypoints = half = None
     count = table.get("count", 0)
     if "rows" in table:
-        grid = [row(f"waypoints: row {i + 1}", r) for i, r in enumerate(table["rows"])]
+        grid = [row(f"waypoints: rows: row {i + 1}", r) for i, r in enumerate(table["rows"])]
         if not grid or len({len(r) for r in grid}) > 1:
             raise InputError("waypoints: rows: expected rows of equal length")
         waypoints = np.array([values(r) for r in grid]) * UNITS[unit]
@@ -114,8 +114,10 @@ def _paper(data: dict[str, Any], name: str) -> Paper:
     for entry in data.get("table", []):
         rows += _rows(paper, entry)
     for entry in data.get("totals", []):
-        numbers = row(f"totals: {entry['where']}", entry["values"])
-        limits, joint = _limits(paper, entry), _joint(paper, entry.get("joint"))
+        place = f"totals: {entry['where']}"
+        limits = _limits(place, paper, entry)
+        joint = _joint(f"{place}: joint", paper, entry.get("joint"))
+        numbers = row(f"{place}: values", entry["values"])
         totals += [Total(entry["where"], entry.get("by", ""), joint, v, limits) for v in numbers]
     means = tuple(
         ArithmeticClaim(
@@ -161,7 +163,8 @@ def _variant(paper: Paper, table: dict[str, Any]) -> Paper:
 
 def _rows(paper: Paper, table: dict[str, Any]) -> list[PrintedTimes]:
     """Rows of a table of joints, and the rule's vector made of them, if the paper goes on to that."""
-    where, by, limits = table["where"], table.get("by", ""), _limits(paper, table)
+    where, by = table["where"], table.get("by", "")
+    limits = _limits(f"table: {where}", paper, table)
     joints, times = table["joints"], table["times"]
     totals = table.get("totals", [None] * len(joints))
     if not joints:
@@ -171,10 +174,11 @@ def _rows(paper: Paper, table: dict[str, Any]) -> list[PrintedTimes]:
     rows = []
     for joint, vector, total in zip(joints, times, totals, strict=True):
         joint = None if joint == "all" else joint
-        at = where if joint is None else f"{where}, joint {joint}"
-        numbers = row(f"table: {at}", vector, paper.n_waypoints - 1)
-        sums = None if total is None else printed(f"table: {at}: total", total)
-        rows.append(PrintedTimes(at, by, _joint(paper, joint), numbers, sums, limits))
+        at = where if joint is None else f"{where}, joint {joint!s:.50}"
+        numbers = row(f"table: {at}: times", vector, paper.n_waypoints - 1)
+        sums = None if total is None else printed(f"table: {at}: totals", total)
+        number = _joint(f"table: {where}: joints", paper, joint)
+        rows.append(PrintedTimes(at, by, number, numbers, sums, limits))
     if "longest" in table or "longest_where" in table:
         at = table.get("longest_where", f"{where}, longest")
         columns = zip(*(r.times for r in rows), strict=True)
@@ -244,23 +248,16 @@ def _point(table: dict[str, Any], count: int) -> Point:
     return Point(where, table["waypoint"] - 1, position, rpy, metre, radian)
 
 
-def _limits(paper: Paper, table: dict[str, Any]) -> str | None:
-    name = table.get("limits")
-    if name is not None and name not in paper.stated:
-        near = nearest_of(name, paper.stated)
-        meant = f"; did you mean {near!r}?" if near else ""
-        raise InputError(
-            f"{table['where']}: limits {name!r:.50} are not stated ({', '.join(paper.stated)}){meant}"
-        )
-    return name
+def _limits(place: str, paper: Paper, table: dict[str, Any]) -> str | None:
+    return None if "limits" not in table else _one_of(f"{place}: limits", table["limits"], paper.stated)
 
 
-def _joint(paper: Paper, joint: Any) -> int | None:
+def _joint(key: str, paper: Paper, joint: Any) -> int | None:
     if joint is None:
         return None
     dof = 0 if paper.waypoints is None else paper.waypoints.shape[1]
-    if not isinstance(joint, int) or not 1 <= joint <= dof:
-        raise InputError(f"joint: {joint!r} is not one of 1 to {dof}")
+    if isinstance(joint, bool) or not isinstance(joint, int) or not 1 <= joint <= dof:
+        raise InputError(f"{key}: {joint!r:.50} is not one of 1 to {dof}")
     return joint - 1
 
 
@@ -268,5 +265,6 @@ def _one_of(key: str, value: Any, known: Any) -> str:
     if value not in known:
         near = nearest_of(str(value), known)
         meant = f"; did you mean {near!r}?" if near else ""
-        raise InputError(f"{key}: {value!r:.50} is not one of {', '.join(known)}{meant}")
+        names = ", ".join(f"{name:.50}" for name in known) or "none, since none are stated"
+        raise InputError(f"{key}: {value!r:.50} is not one of {names}{meant}")
     return str(value)

@@ -6,12 +6,15 @@ import math
 from dataclasses import dataclass, field
 from typing import Any
 
+import numpy as np
+
 from compare.audit.paper.dh import PrintedDH
 from compare.audit.paper.digits import Printed
 from compare.audit.paper.limits import UNREACHED, StatedLimits
 from formulations import InputError, Limits, Problem
 from formulations.arms import Arm
 from formulations.problem.arrays import Array
+from formulations.problem.problem import POSITION_TOLERANCE
 
 UNITS = {"rad": 1.0, "deg": math.pi / 180.0}
 RULES = ("sum", "difference", "mean", "reduction")
@@ -145,7 +148,7 @@ class Paper:
             One joint, from 0, or all of them.
         limits : str or None
             Name of stated limits. Without them only the velocity is limited, by a value that nothing
-            reaches.
+            reaches. Limits of position are widened to waypoints beyond them: those are a fault of their own.
 
         Returns
         -------
@@ -165,7 +168,8 @@ class Paper:
         else:
             stated = self.stated[limits].of_joint(joint)
             velocity, acceleration, jerk = stated.derivatives
-            allowed = Limits.of(velocity, acceleration, jerk, stated.position, dof=dof)
+            position = _around(stated.position, w)
+            allowed = Limits.of(velocity, acceleration, jerk, position, dof=dof)
         return Problem.of(w, allowed, name=self.name, family=self.family, display_unit=self.unit)
 
     def loosest(self, problem: Problem, joint: int | None, limits: str | None) -> Problem:
@@ -218,3 +222,16 @@ class Paper:
         """
         assert self.halves is not None
         return self.halves if joint is None else self.halves[:, joint : joint + 1]
+
+
+def _around(position: Array, waypoints: Array) -> Array:
+    """Widen limits of position (dof, 2) to the waypoints that lie beyond them by more than rounding."""
+    low, high = position.T
+    least, most = waypoints.min(axis=0), waypoints.max(axis=0)
+    return np.stack(
+        [
+            np.where(low - least > POSITION_TOLERANCE, least, low),
+            np.where(most - high > POSITION_TOLERANCE, most, high),
+        ],
+        axis=1,
+    )
