@@ -1,4 +1,4 @@
-"""Other readings of a DH table: its form, its units, its columns, joint offsets, one sign."""
+"""Other readings of a DH table: its form, its units, its columns, joint offsets, one sign, one length."""
 
 from __future__ import annotations
 
@@ -19,6 +19,7 @@ from formulations.problem.arrays import Array
 
 _TURNS = (-90.0, 90.0, 180.0)  # deg: offsets that papers leave out
 _MOST_OFFSETS = 3  # joints with such an offset
+_DIGITS = {"mm": 0, "m": 3}  # decimals of a length to begin with
 _KEPT = 40  # readings with the smallest misses, which are judged with their rounding
 
 
@@ -58,6 +59,10 @@ def dh_readings(paper: Paper) -> list[tuple[int, Change]]:
     readings = [
         (cost, _change(paper, paper.dh, told, table, shift))
         for _, cost, told, table, shift in found[:_KEPT]
+    ]
+    readings += [
+        (1, _change(paper, paper.dh, [told], table, np.zeros(table.dof)))
+        for told, table in _lengths(paper.dh.table, joints, wanted)
     ]
     return sorted(readings, key=lambda reading: reading[0])
 
@@ -113,6 +118,34 @@ def _tables(table: DHTable) -> Iterator[tuple[list[str], DHTable]]:
                 if part != "sign":
                     told[-1] = f"the other sign of {part} of joint {j + 1}"
                 yield told, replace(table, form=form, **{part: column})
+
+
+def _lengths(table: DHTable, joints: Array, wanted: Array) -> Iterator[tuple[str, DHTable]]:
+    """Tables with one other length, which the points (n, 3) [m] ask for: a misprint, a base or a tool.
+
+    The tool moves along a line when one length changes, so each point asks for a length; the median is taken.
+    """
+    metre, last = METRES[table.length], table.dof - 1
+    tools = table.chain().forward(joints)[:, :3, 3]
+    for part, j in product("da", range(table.dof)):
+        column = getattr(table, part).copy()
+        column[j] += 1.0
+        along = (replace(table, **{part: column}).chain().forward(joints)[:, :3, 3] - tools) / metre
+        asked = float(np.median(((wanted - tools) * along).sum(axis=1))) / metre
+        meaning = {("d", 0): ", the height of the base", ("d", last): ", as with a tool"}.get(
+            (part, j), ""
+        )
+        printed = float(getattr(table, part)[j])
+        first = _DIGITS[table.length]
+        lengths = dict.fromkeys(round(printed + asked, first + more) for more in range(4))
+        for length in lengths:
+            if length != printed:
+                column = column.copy()
+                column[j] = length
+                told = (
+                    f"{part} of joint {j + 1} {length:g} {table.length}{meaning} (printed: {printed:g})"
+                )
+                yield told, replace(table, **{part: column})
 
 
 @cache
