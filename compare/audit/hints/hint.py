@@ -55,8 +55,8 @@ class Hint:
         The places in the paper that become sound; no sound place becomes faulty.
     removes, of : int
         How many faults were found at these places, and how many in all.
-    others : int
-        How many other changes of this kind explain the same places.
+    others : tuple of str
+        Other changes of this kind that explain the same places, the likeliest first.
     remark : str
         Further numbers of the change; may be empty.
     """
@@ -66,7 +66,7 @@ class Hint:
     explains: tuple[str, ...]
     removes: int
     of: int
-    others: int = 0
+    others: tuple[str, ...] = ()
     remark: str = ""
 
     @property
@@ -80,7 +80,6 @@ class Hint:
             return f"{told}none of {found} goes, but {self.remark}"
         told += f"this would explain {shown}{more} and remove {self.removes} of {found}"
         if self.others:
-            told += (
-                f" ({self.others} other change{'s' if self.others > 1 else ''} of this kind would, too)"
-            )
+            rest = len(self.others) - 1
+            told += f"; so would {self.others[0]}{f', and {rest} more of this kind' if rest else ''}"
         return f"{told}; {self.remark}" if self.remark else told

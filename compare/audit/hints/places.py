@@ -18,11 +18,11 @@ from compare.audit.findings.unplaced import unplaced_findings
 from compare.audit.findings.vectors import position_faults
 from compare.audit.findings.waypoints import waypoints_beyond
 from compare.audit.motion.minima import reached
-from compare.audit.motion.printed_motion import PrintedMotion
+from compare.audit.motion.printed_motion import ROOTS, PrintedMotion
 from compare.audit.motion.ranged import Undecided
 from compare.audit.paper import Paper, PrintedTimes
 from formulations import FAMILIES, InputError
-from formulations.motion.verdict import TOLERANCE
+from formulations.motion.verdict import QUANTITIES, TOLERANCE
 
 Place = tuple[str, str]  # what it is (waypoint, vector, point, sum, totals), and where
 
@@ -34,10 +34,24 @@ _FAR = 1.5  # stretch at the printed digits that rounding does not explain
 
 @dataclass(frozen=True)
 class State:
-    """How one place stands: sound or not, and the share of its limits that is used (0: it has none)."""
+    """How one place stands.
+
+    Attributes
+    ----------
+    sound : bool
+        Whether it agrees with the rest of the paper.
+    used : tuple of float
+        Share of its limits that is used: of velocity, acceleration and jerk, as a stretch, for a motion; one
+        number for totals and waypoints; empty where there are no limits.
+    """
 
     sound: bool
-    use: float = 0.0
+    used: tuple[float, ...] = ()
+
+    @property
+    def use(self) -> float:
+        """The largest share."""
+        return max(self.used, default=0.0)
 
 
 SOUND, FAULTY = State(True), State(False)
@@ -103,7 +117,7 @@ class Places:
             farthest = _share_of_range(paper)
             for i in range(paper.n_waypoints):
                 where = f"waypoint {i + 1}"
-                found["waypoint", where] = FAULTY if where in wrong else State(True, farthest)
+                found["waypoint", where] = FAULTY if where in wrong else State(True, (farthest,))
             for row in (row for row in paper.rows if longest or not row.of):
                 state = self._vector(paper, row)
                 before = found.get(("vector", row.where), state)
@@ -134,7 +148,7 @@ class Places:
         if paper.waypoints is None:
             wrong = {finding.where for finding in unplaced_findings(paper)}
             return {
-                ("totals", t.table): FAULTY if t.table in wrong else State(True, 1.0)
+                ("totals", t.table): FAULTY if t.table in wrong else State(True, (1.0,))
                 for t in paper.totals
             }
         for total in paper.totals:
@@ -143,7 +157,7 @@ class Places:
             best = reached(paper.problem(total.joint, total.limits))
             if total.value.high < best:
                 found["totals", total.table] = FAULTY
-            found.setdefault(("totals", total.table), State(True, best / total.value.high))
+            found.setdefault(("totals", total.table), State(True, (best / total.value.high,)))
         return found
 
     def _vector(self, paper: Paper, row: PrintedTimes) -> State:
@@ -173,12 +187,14 @@ class Places:
 
 def _state(motion: PrintedMotion) -> State:
     problem = motion.problem
-    stretch = float(FAMILIES[problem.family].stretch(problem, motion.times[None])[0])
+    peaks = FAMILIES[problem.family].peaks(problem, motion.times[None])[0].T
+    used = ((peaks / problem.limits.derivatives) ** ROOTS).max(axis=1)
+    stretch = float(used.max())
     if stretch > _FAR or (stretch > 1.0 + TOLERANCE and motion.breaks):
         return FAULTY
     if not _inside(motion) and position_faults(motion):
         return FAULTY
-    return State(True, min(stretch, 1.0))
+    return State(True, tuple(np.minimum(used, 1.0).tolist()))
 
 
 def _share_of_range(paper: Paper) -> float:
@@ -212,7 +228,11 @@ def explained(found: Sequence[Finding], after: State) -> bool:
     Returns
     -------
     bool
-        A motion that fits lower limits than the stated ones is explained if it uses its limits fully then.
+        A motion that fits lower limits than the stated ones is explained if it uses these limits fully then.
     """
-    slow = any(finding.kind == "other limits" for finding in found)
-    return after.sound and (not slow or after.use >= FULL)
+    for finding in (finding for finding in found if finding.kind == "other limits"):
+        lower = [k for k, quantity in enumerate(QUANTITIES[1:]) if quantity in finding.numbers]
+        shares = [after.used[k] for k in lower if k < len(after.used)] or [after.use]
+        if min(shares) < FULL:
+            return False
+    return after.sound

@@ -60,8 +60,8 @@ def hints_of(paper: Paper, findings: Sequence[Finding]) -> list[Hint]:
     return [search.hint(best, others, of) for best, others in _best(found)]
 
 
-def _best(found: Sequence[_Judged]) -> list[tuple[_Judged, int]]:
-    """Choose the best change of each kind, with the number of others that explain as much.
+def _best(found: Sequence[_Judged]) -> list[tuple[_Judged, tuple[str, ...]]]:
+    """Choose the best change of each kind, with the others that explain the same.
 
     A kind that explains a part of what another kind explains is left out.
     """
@@ -70,10 +70,12 @@ def _best(found: Sequence[_Judged]) -> list[tuple[_Judged, int]]:
         group = [judged for judged in found if judged.change.kind == kind]
         if group:
             best = max(group, key=lambda judged: (len(judged.places), -judged.cost, judged.uses))
-            others = sum(
-                j is not best and j.places == best.places and j.cost == best.cost for j in group
+            alike = sorted(
+                (j for j in group if j.places == best.places and j.cost == best.cost and j is not best),
+                key=lambda judged: judged.uses,
+                reverse=True,
             )
-            chosen.append((best, others))
+            chosen.append((best, tuple(judged.change.tried for judged in alike)))
     chosen.sort(key=lambda entry: (len(entry[0].places), entry[0].uses), reverse=True)
     return [
         (best, others)
@@ -115,7 +117,7 @@ class _Search:
                 found.append(_Judged(change, frozenset(), (), cost))
         return found
 
-    def hint(self, best: _Judged, others: int, of: int) -> Hint:
+    def hint(self, best: _Judged, others: tuple[str, ...], of: int) -> Hint:
         """Write a change as a hint."""
         remark, change = "", best.change
         if change.kind == "dh":
@@ -124,9 +126,13 @@ class _Search:
         elif best.uses:
             stretch = " to ".join(dict.fromkeys(number(use) for use in (best.uses[0], best.uses[-1])))
             remark = f"the stretch of the motions there is then {stretch}"
-        faulty, places = self.faulty | self.longest, set(best.places)
-        after = self.places.states(change.paper, longest=True) if self.longest else {}
-        places |= {place for place in self.longest if after[place].sound}
+        faulty = self.faulty | self.longest
+        after = self.places.states(change.paper, longest=bool(self.longest))
+        if self.totals:
+            after |= self.places.totals(change.paper)
+        places = best.places | {
+            place for place, faults in faulty.items() if explained(faults, after[place])
+        }
         removes = sum(len(faulty[place]) for place in places)
         where = tuple(dict.fromkeys(where for _, where in sorted(places)))
         return Hint(change.kind, change.tried, where, removes, of, others, remark)
@@ -157,11 +163,17 @@ class _Search:
         return _Judged(change, frozenset(found), tuple(sorted(motions)), cost)
 
     def _spoilt(self, after: dict[Place, State]) -> bool:
-        """Whether a change makes a sound place faulty, or a motion slow that used its limits fully."""
+        """Whether a change makes a sound place faulty, or a motion slow that used a limit fully."""
         return any(
             self.before[place].sound
             and place not in self.faulty
-            and (not state.sound or state.use < FULL <= self.before[place].use)
+            and (
+                not state.sound
+                or any(
+                    now < FULL <= was
+                    for now, was in zip(state.used, self.before[place].used, strict=False)
+                )
+            )
             for place, state in after.items()
         )
 

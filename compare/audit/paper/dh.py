@@ -87,7 +87,7 @@ def read_dh(table: dict[str, Any], dof: int | None) -> PrintedDH:
     """
     for number, joint in enumerate(table.get("joints", []), start=1):
         if joint not in _JOINTS:
-            raise InputError(f"dh: joints: {joint!r:.50}{known_names(str(joint), _JOINTS)}")
+            raise InputError(f"dh: joints: {joint!r:.50}; {known_names(str(joint), _JOINTS)}")
         if joint == "prismatic":
             raise InputError(
                 f"dh: joints: joint {number} is 'prismatic'; the audit reads arms of revolute joints only: "

@@ -63,12 +63,16 @@ def rpy_of(pose: np.ndarray) -> np.ndarray:
 
 
 @cache
-def optima(velocity: tuple[float, ...], acceleration: tuple[float, ...]) -> list[np.ndarray]:
-    """Each joint's own optimum under limits in deg."""
-    problem = Problem.of(
-        WAYPOINTS * DEG, Limits.of(np.array(velocity) * DEG, np.array(acceleration) * DEG, dof=3)
-    )
+def _optima(table: str, waypoints: bytes) -> list[np.ndarray]:
+    points = np.frombuffer(waypoints).reshape(4, 3) * DEG
+    velocity, acceleration = (np.array(row) * DEG for row in LIMITS[table])
+    problem = Problem.of(points, Limits.of(velocity, acceleration, dof=3))
     return [family_optimum(problem.joint(j), starts=2).durations for j in range(3)]
+
+
+def optima(table: str, waypoints: np.ndarray = WAYPOINTS) -> list[np.ndarray]:
+    """Each joint's own optimum under the limits of a table."""
+    return [times.copy() for times in _optima(table, waypoints.tobytes())]
 
 
 @dataclass
@@ -132,12 +136,12 @@ class Sheet:
         return audit(self.paper())
 
 
-def sound(dh: dict[str, Any] | None = None) -> Sheet:
+def sound(dh: dict[str, Any] | None = None, waypoints: np.ndarray = WAYPOINTS) -> Sheet:
     """The paper without a fault, with points of a DH table that it may print otherwise."""
-    times = deepcopy(optima(*(tuple(row) for row in LIMITS["Table 3"])))
-    tools = [tool(dh or DH, w) for w in WAYPOINTS]
+    times = optima("Table 3", waypoints)
+    tools = [tool(dh or DH, w) for w in waypoints]
     return Sheet(
-        waypoints=WAYPOINTS.copy(),
+        waypoints=waypoints.copy(),
         times=times,
         totals=[float(t.round(4).sum()) for t in times],
         points=[pose[:3, 3] for pose in tools],

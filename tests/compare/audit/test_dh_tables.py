@@ -166,7 +166,7 @@ def test_a_reading_that_comes_much_nearer_is_named_though_no_fault_goes() -> Non
         ("[dh]", '[dh]\njoints = ["revolute", "prismatic", "revolute"]',
          "dh: joints: joint 2 is 'prismatic'; the audit reads arms of revolute joints only"),
         ("[dh]", '[dh]\njoints = ["revolut", "revolute", "revolute"]',
-         "dh: joints: 'revolut'; did you mean revolute?"),
+         "dh: joints: 'revolut'; the nearest known one is 'revolute'"),
         ("[dh]", '[dh]\njoints = ["revolute"]', "dh: joints: 1 values where 3 are expected"),
         ("[dh]", "[dh]\nsign = [1, 2, 1]", "dh: sign: 2 is not 1 or -1"),
         ("[dh]", "[[dh]]", "dh: expected a table [dh]"),
