@@ -20,6 +20,8 @@ from formulations.problem.arrays import Array
 _TURNS = (-90.0, 90.0, 180.0)  # deg: offsets that papers leave out
 _MOST_OFFSETS = 3  # joints with such an offset
 _DIGITS = {"mm": 0, "m": 3}  # decimals of a length to begin with
+# Of a reading that explains no fault: how near it has to come, and how probable that may be by chance.
+_NEARER, _CHANCE = 0.25, 0.01
 _KEPT = 40  # readings with the smallest misses, which are judged with their rounding
 
 
@@ -80,6 +82,28 @@ def largest_miss(paper: Paper) -> float:
     float [m]
     """
     return max(float(np.linalg.norm(residual(paper, point).apart)) for point in paper.points)
+
+
+def by_chance(paper: Paper, read: Paper) -> bool:
+    """Whether some of so many readings may come nearer to the points by chance as much as this one does.
+
+    A reading that has nothing to do with the arm puts the tool anywhere. It brings all three coordinates of n
+    points to a share r of the former miss with a probability of about r^(3 n).
+
+    Parameters
+    ----------
+    paper, read : Paper
+        Before and after the change.
+
+    Returns
+    -------
+    bool
+        True, too, if it does not come four times as near.
+    """
+    assert paper.dh is not None
+    readings = len(list(_tables(paper.dh.table))) * len(_offsets(paper.dh.table.dof))
+    share = largest_miss(read) / largest_miss(paper)
+    return bool(share > _NEARER or readings * share ** (3 * len(paper.points)) > _CHANCE)
 
 
 def _change(paper: Paper, dh: PrintedDH, told: list[str], table: DHTable, shift: Array) -> Change:

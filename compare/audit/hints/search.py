@@ -6,7 +6,7 @@ from collections.abc import Iterable, Sequence
 from dataclasses import dataclass
 
 from compare.audit.findings import Finding
-from compare.audit.hints.dh_forms import dh_readings, largest_miss
+from compare.audit.hints.dh_forms import by_chance, dh_readings, largest_miss
 from compare.audit.hints.hint import QUESTIONS, Change, Hint
 from compare.audit.hints.order import other_tables, signs, swaps
 from compare.audit.hints.places import FULL, Place, Places, State, explained, faulty_places
@@ -17,7 +17,8 @@ from compare.audit.paper.words import number
 # Share of the limits that something of a kind must use after a change: limits that are far away explain
 # nothing. Degrees and radians differ by a factor of 57.
 _LEAST_USE = {"vector": 0.5, "totals": 0.5, "waypoint": 0.1}
-_NEARER = 0.1  # a reading of the DH table that brings the largest miss below this share is worth a hint
+
+_AS_NEAR = 1.05  # of the smallest miss: a simpler reading that comes as near is preferred
 
 
 @dataclass(frozen=True)
@@ -107,15 +108,16 @@ class _Search:
 
     def dh_judged(self) -> list[_Judged]:
         """Keep the readings of the DH table that explain something, or come much nearer to the points."""
-        found = []
-        for cost, change in dh_readings(self.paper):
-            kept = self._judge(change, cost)
-            near = largest_miss(change.paper) < _NEARER * largest_miss(self.paper)
-            if kept is not None:
-                found.append(kept)
-            elif near and not self._spoilt(self.places.states(change.paper)):
-                found.append(_Judged(change, frozenset(), (), cost))
-        return found
+        readings = dh_readings(self.paper)
+        found = [kept for cost, change in readings if (kept := self._judge(change, cost)) is not None]
+        if found or not readings:
+            return found
+        misses = [largest_miss(change.paper) for _, change in readings]
+        enough = _AS_NEAR * min(misses)
+        cost, change = next(r for r, miss in zip(readings, misses, strict=True) if miss <= enough)
+        if by_chance(self.paper, change.paper) or self._spoilt(self.places.states(change.paper)):
+            return []
+        return [_Judged(change, frozenset(), (), cost)]
 
     def hint(self, best: _Judged, others: tuple[str, ...], of: int) -> Hint:
         """Write a change as a hint."""

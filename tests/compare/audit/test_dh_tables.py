@@ -2,7 +2,9 @@
 
 from __future__ import annotations
 
+import tomllib
 from collections.abc import Callable
+from importlib.resources import files
 from typing import Any
 
 import numpy as np
@@ -11,8 +13,9 @@ from arm_sheets import DEG, DH, Sheet, sound
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
-from compare.audit import Audit, parse_papers
+from compare.audit import Audit, parse_papers, published_text
 from compare.audit.findings.points import points_of
+from compare.audit.hints import hints_of
 from formulations import InputError
 
 
@@ -150,6 +153,40 @@ def test_a_reading_that_comes_much_nearer_is_named_though_no_fault_goes() -> Non
     assert hint.removes == 0
     assert "none of 4 faults goes" in hint.text
     assert hint.text.endswith(" mm to 5.001 mm")
+
+
+def own_table(name: str, form: str) -> str:
+    """A shipped paper with its printed DH table in place of the arm that was fitted to its points."""
+    printed = tomllib.loads((files("formulations.arms") / f"{name}.toml").read_text("utf-8"))["printed"]
+    head = f'[dh]\nwhere = "Table 1"\nform = "{form}"\nlength = "{printed["length"]}"\nangle = "deg"\n'
+    rows = "".join(f"{key} = {printed[key]}\n" for key in ("d", "a", "alpha"))
+    text = published_text(name).replace(f'arm = "{name}"\n', "")
+    return text.replace("[waypoints]", f"{head}{rows}[waypoints]", 1)
+
+
+@pytest.mark.parametrize("form", ["standard", "modified"])
+@pytest.mark.parametrize(
+    ("name", "tried", "remaining"),
+    [
+        # the offsets that were found by hand; the points of ur5 are out of its reach by up to 347 mm
+        ("sr4c", "joint offsets theta2 + 90 deg, theta5 - 90 deg, theta6 + 90 deg", "0.07097 mm"),
+        ("ur5", "joint offsets theta2 - 90 deg, theta4 - 90 deg", "348 mm"),
+        ("bagging", "", "2.547 mm"),  # z of point A is a misprint
+        ("cobot", None, ""),  # no reading of the printed table fits
+    ],
+)
+def test_the_printed_tables_of_the_papers(
+    name: str, tried: str | None, remaining: str, form: str
+) -> None:
+    paper = parse_papers(own_table(name, form), name)[0]
+    found = [hint for hint in hints_of(paper, points_of(paper)) if hint.kind == "dh"]
+    words = ["the standard form (stated: modified)"] if form == "modified" else []
+    if tried is None or not (words or tried):
+        assert found == []
+        return
+    (hint,) = found
+    assert hint.tried == f"Table 1 read with {' and '.join([*words, *([tried] if tried else [])])}"
+    assert hint.text.endswith(remaining)
 
 
 @pytest.mark.parametrize(
