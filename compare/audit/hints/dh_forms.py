@@ -19,6 +19,7 @@ from formulations.problem.arrays import Array
 
 _TURNS = (-90.0, 90.0, 180.0)  # deg: offsets that papers leave out
 _MOST_OFFSETS = 3  # joints with such an offset
+_MOST_JOINTS, _MOST_POINTS = 9, 12  # of an arm that is searched; points that the search looks at
 _DIGITS = {"mm": 0, "m": 3}  # decimals of a length to begin with
 # Of a reading that explains no fault: how near it has to come, and how probable that may be by chance.
 _NEARER, _CHANCE = 0.25, 0.01
@@ -41,8 +42,11 @@ def dh_readings(paper: Paper) -> list[tuple[int, Change]]:
     """
     if paper.dh is None or paper.waypoints is None or not paper.points:
         return []
-    joints = paper.waypoints[[point.waypoint for point in paper.points]]
-    wanted = np.array([position_of(point) for point in paper.points])
+    if paper.dh.table.dof > _MOST_JOINTS:
+        return []
+    points = paper.points[:_MOST_POINTS]
+    joints = paper.waypoints[[point.waypoint for point in points]]
+    wanted = np.array([position_of(point) for point in points])
     shifts = _offsets(paper.dh.table.dof)
     found: list[tuple[float, int, list[str], DHTable, Array]] = []
     for told, table in _tables(paper.dh.table):

@@ -2,9 +2,9 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator
+from collections.abc import Iterable, Iterator, Sequence
 from dataclasses import replace
-from itertools import combinations
+from itertools import combinations, pairwise
 
 import numpy as np
 
@@ -14,6 +14,7 @@ from compare.audit.paper import Paper, PrintedTimes, StatedLimits
 from formulations.motion.verdict import QUANTITIES
 
 _AXES = "xyz"
+_ALL_PAIRS = 20  # rows or columns of which every two are swapped; of more, only neighbours
 
 
 def signs(paper: Paper) -> Iterator[Change]:
@@ -69,21 +70,21 @@ def swaps(paper: Paper) -> Iterator[Change]:
             for i, row in enumerate(paper.rows)
             if table_of(row) == table and not row.of and row.joint is not None
         ]
-        for a, b in combinations(places, 2):
+        for a, b in _pairs(places):
             rows = list(paper.rows)
             first, second = rows[a], rows[b]
             rows[a] = replace(first, times=second.times, total=second.total)
             rows[b] = replace(second, times=first.times, total=first.total)
             told = f"the times of {first.where} and {second.where} swapped"
             yield Change("swap", told, replace(paper, rows=tuple(rows)))
-    for a, b in combinations(range(len(paper.points)), 2):
+    for a, b in _pairs(range(len(paper.points))):
         changed = list(paper.points)
         p, q = changed[a], changed[b]
         changed[a] = replace(p, position=q.position, rpy=q.rpy, metre=q.metre, radian=q.radian)
         changed[b] = replace(q, position=p.position, rpy=p.rpy, metre=p.metre, radian=p.radian)
         told = f"{p.where} and {q.where} swapped"
         yield Change("swap", told, replace(paper, points=tuple(changed)))
-    for a, b in combinations(range(3 if paper.points else 0), 2):
+    for a, b in _pairs(range(3 if paper.points else 0)):
         order = [b if k == a else a if k == b else k for k in range(3)]
         points = tuple(replace(p, position=tuple(p.position[k] for k in order)) for p in paper.points)
         told = f"{_AXES[a]} and {_AXES[b]} of the points swapped"
@@ -134,7 +135,7 @@ def _waypoint_swaps(paper: Paper) -> Iterator[Change]:
     if paper.waypoints is None or paper.halves is None:
         return
     for axis, what in ((1, "joints"), (0, "waypoints")):
-        for a, b in combinations(range(paper.waypoints.shape[axis]), 2):
+        for a, b in _pairs(range(paper.waypoints.shape[axis])):
             order = _swapped(paper.waypoints.shape[axis], a, b)
             waypoints = np.take(paper.waypoints, order, axis)
             told = f"{what} {a + 1} and {b + 1} of the waypoints swapped"
@@ -148,7 +149,7 @@ def _limit_swaps(paper: Paper, name: str, stated: StatedLimits) -> Iterator[Chan
     chosen = [("limits", limited, True)]
     chosen += [(f"{QUANTITIES[k + 1]} limits", [k], False) for k in limited]
     for what, quantities, position in chosen:
-        for a, b in combinations(range(dof), 2):
+        for a, b in _pairs(range(dof)):
             changed = _ordered(stated, quantities, _swapped(dof, a, b), position=position)
             same = np.array_equal(changed.derivatives, stated.derivatives)
             if not same or not np.array_equal(changed.position, stated.position):
@@ -170,6 +171,10 @@ def _ordered(
         position=stated.position[order] if position else stated.position,
         position_halves=stated.position_halves[order] if position else stated.position_halves,
     )
+
+
+def _pairs(places: Sequence[int]) -> Iterable[tuple[int, int]]:
+    return combinations(places, 2) if len(places) <= _ALL_PAIRS else pairwise(places)
 
 
 def _swapped(count: int, a: int, b: int) -> list[int]:

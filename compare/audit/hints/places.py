@@ -20,8 +20,9 @@ from compare.audit.findings.waypoints import waypoints_beyond
 from compare.audit.motion.minima import reached
 from compare.audit.motion.printed_motion import ROOTS, PrintedMotion
 from compare.audit.motion.ranged import Undecided
-from compare.audit.paper import Paper, PrintedTimes
+from compare.audit.paper import Paper, Point, PrintedTimes
 from formulations import FAMILIES, InputError
+from formulations.arms import Chain
 from formulations.motion.verdict import QUANTITIES, TOLERANCE
 
 Place = tuple[str, str]  # what it is (waypoint, vector, point, sum, totals), and where
@@ -94,6 +95,7 @@ class Places:
 
     def __init__(self) -> None:
         self._vectors: dict[tuple[object, ...], State] = {}
+        self._points: dict[tuple[object, ...], State] = {}
 
     def states(self, paper: Paper, *, longest: bool = False) -> dict[Place, State]:
         """Judge the time vectors, points and sums of a paper.
@@ -127,8 +129,9 @@ class Places:
         found |= {("sum", where): FAULTY if where in wrong else SOUND for where in sums}
         if paper.arm is not None and paper.waypoints is not None:
             for point in paper.points:
-                off = residual(paper, point)
-                found["point", point.where] = FAULTY if off.moved or off.turned else SOUND
+                state = self._point(paper, paper.arm.chain, point)
+                before = found.get(("point", point.where), state)
+                found["point", point.where] = state if before.sound else before
         return found
 
     def totals(self, paper: Paper) -> dict[Place, State]:
@@ -159,6 +162,15 @@ class Places:
                 found["totals", total.table] = FAULTY
             found.setdefault(("totals", total.table), State(True, (best / total.value.high,)))
         return found
+
+    def _point(self, paper: Paper, chain: Chain, point: Point) -> State:
+        assert paper.waypoints is not None
+        parts = (chain.d, chain.a, chain.alpha, chain.offset, chain.sign, chain.base)
+        key = (point, *(part.tobytes() for part in (paper.waypoints[point.waypoint], *parts)))
+        if key not in self._points:
+            off = residual(paper, point)
+            self._points[key] = FAULTY if off.moved or off.turned else SOUND
+        return self._points[key]
 
     def _vector(self, paper: Paper, row: PrintedTimes) -> State:
         if row.limits is None:

@@ -25,8 +25,26 @@ it. Only `family` and `[waypoints]` are needed.
 - An unknown key is refused, with the nearest known one: a key that nobody reads would switch off a check in
   silence.
 - Joints and waypoints count from 1. Times are in seconds.
-- Where numbers are wrong, the audit also tries one change at a time (a unit, a sign, two columns, the form of
-  the DH table) and names each that would explain them: the hints.
+
+## Hints
+
+Where numbers are wrong, the audit also tries one change at a time and names each that would explain faults and
+makes nothing else wrong: what was tried, which places it would explain, how many of the faults it removes. A
+hint is computed from the numbers alone and proves nothing. Nothing is said where no change explains anything.
+
+- deg and rad mixed? Limits (all, or one quantity), waypoints (all, one, one joint), orientations.
+- seconds and minutes or milliseconds mixed? Times, totals, or both, of one table.
+- m and mm mixed? The positions of the points.
+- one sign wrong? In the waypoints, or in the position of a point.
+- two columns or rows swapped? In waypoints, limits, time vectors, points.
+- limits of another table in force?
+- another reading of the DH table? The form, the units, columns a and d, one sign, one length, and joint offsets
+  of quarter and half turns of up to three joints. A reading that explains no fault is named if it brings every
+  point four times as near.
+
+A sum that leaves out a segment is named with the sum itself.
+
+## Keys
 
 This page is made of `compare/audit/paper/format.py`, which the reader of the file uses too.
 """
