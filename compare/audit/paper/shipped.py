@@ -102,6 +102,6 @@ def settings(name: str) -> dict[str, dict[str, Any]]:
     Returns
     -------
     dict
-        Tables by name (``keys.SETTINGS``); each says in ``where`` which table or section it is.
+        Tables by name (``settings_format.SETTINGS``); each says in ``where`` which table or section it is.
     """
     return load_papers(name)[0].settings
