@@ -30,8 +30,8 @@ def chapter(audits: Iterable[dict[str, Any]]) -> list[dict[str, Any]]:
     -------
     list of dict
         One per paper: name, title, source, notes; header, caption and rows (cells as text; feasible);
-        faults and notes_found, each a list of kind, meaning, proved and items (where, text). What concerns
-        all joints together comes first.
+        faults and notes_found, each a list of kind, meaning, proved and items (where, text); hints, each
+        with question and text. What concerns all joints together comes first.
     """
     return [
         {
@@ -47,6 +47,7 @@ def chapter(audits: Iterable[dict[str, Any]]) -> list[dict[str, Any]]:
             ],
             "faults": _by_kind(data, FAULTS),
             "notes_found": _by_kind(data, NOTES),
+            "hints": data.get("hints", []),  # stores of earlier versions have none
         }
         for data in audits
     ]

@@ -16,6 +16,8 @@ from compare.audit.findings.points import points_of
 from compare.audit.findings.together import ranking_findings, rule_findings
 from compare.audit.findings.unplaced import unplaced_findings
 from compare.audit.findings.vectors import motion_findings
+from compare.audit.findings.waypoints import waypoints_beyond
+from compare.audit.hints import QUESTIONS, Hint, hints_of
 from compare.audit.judged import JudgedTimes
 from compare.audit.motion.printed_motion import PrintedMotion
 from compare.audit.motion.ranged import Undecided
@@ -24,11 +26,12 @@ from compare.audit.paper import Paper
 
 @dataclass(frozen=True)
 class Audit:
-    """The motions of a paper and all findings about it."""
+    """The motions of a paper, all findings about it, and changes that would explain some of them."""
 
     paper: Paper
     motions: tuple[PrintedMotion, ...]
     findings: tuple[Finding, ...]
+    hints: tuple[Hint, ...] = ()
 
     @property
     def faults(self) -> list[Finding]:
@@ -66,6 +69,7 @@ class Audit:
                 }
                 for f in [*self.faults, *self.notes]
             ],
+            "hints": [{"question": QUESTIONS[h.kind], "text": h.text, **asdict(h)} for h in self.hints],
         }
 
 
@@ -83,7 +87,7 @@ def audit(paper: Paper, progress: Callable[[str], None] | None = None) -> Audit:
     -------
     Audit
     """
-    findings = [*claims_of(paper), *points_of(paper)]
+    findings = [*claims_of(paper), *points_of(paper), *waypoints_beyond(paper)]
     motions: list[PrintedMotion] = []
     if paper.waypoints is None:
         findings += unplaced_findings(paper)
@@ -106,7 +110,9 @@ def audit(paper: Paper, progress: Callable[[str], None] | None = None) -> Audit:
     findings += total_findings(paper, paper.totals)
     findings += table_findings(motions, paper.totals)
     findings += ranking_findings(motions)
-    return Audit(paper, tuple(motions), tuple(findings))
+    if progress is not None:
+        progress("hints")
+    return Audit(paper, tuple(motions), tuple(findings), tuple(hints_of(paper, findings)))
 
 
 def _no_limits(motions: Sequence[PrintedMotion]) -> Finding:

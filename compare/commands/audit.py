@@ -2,16 +2,19 @@
 
 from __future__ import annotations
 
+from pathlib import Path
 from typing import Annotated, Any
 
 from cyclopts import Parameter
 
 from compare.audit.chapters import HEADER, chapter
 from compare.audit.paper import PAPERS, load_papers
+from compare.audit.paper.reference import template as paper_template
 from compare.audit.whole_paper import audit
 from compare.commands import DONE
 from compare.commands.options import Json
 from compare.screen import save, stages, table
+from formulations import InputError
 
 _SHOWN = 3  # findings of one kind that are shown without --every
 
@@ -21,24 +24,30 @@ def audit_papers(
         str | None,
         Parameter(
             name="PAPER",
-            help=f"A paper ({', '.join(PAPERS)}) or a TOML file like theirs; all if left out.",
+            help=f"A paper ({', '.join(PAPERS)}) or a TOML file (docs/paper_file.md); all if left out.",
         ),
     ] = None,
     /,
     *,
     every: bool = False,
+    template: bool = False,
     json: Json = None,
 ) -> int:
     """Judge published results from their own numbers.
 
     Does a published motion keep its limits? Could any motion be that fast? Do the sums, percentages
-    and Cartesian points that stand beside it agree with it?
+    and Cartesian points that stand beside it agree with it? Where they do not, which single change (a unit,
+    a sign, two columns, the form of the DH table) would explain it?
 
     Parameters
     ----------
     every
         Show every finding, not only the first three of a kind.
+    template
+        Write a commented paper file to PAPER, or to the screen, and audit nothing.
     """
+    if template:
+        return _write_template(paper)
     stored = []
     for name in [paper] if paper else PAPERS:
         for one in load_papers(name):
@@ -48,6 +57,24 @@ def audit_papers(
             if json != "-":
                 print(as_text(stored[-1], every=every), flush=True)
     save(stored, json)
+    return DONE
+
+
+def _write_template(file: str | None) -> int:
+    """Write the template of a paper file; a file that is there already is not replaced."""
+    if file is None or file == "-":
+        print(paper_template(), end="")
+        return DONE
+    path = Path(file)
+    try:
+        # not replaced: it may hold a paper's numbers
+        with path.open("x", encoding="utf-8") as opened:
+            opened.write(paper_template())
+    except FileExistsError:
+        raise InputError(f"--template: {path} is there already") from None
+    except OSError as error:
+        raise InputError(f"--template: {path}: cannot be written: {error.strerror}") from None
+    print(f"{path}: put your paper's numbers in, then: timebound audit {path}")
     return DONE
 
 
@@ -81,4 +108,5 @@ def as_text(data: dict[str, Any], *, every: bool = False) -> str:
         lines += [f"  - {item['where']}: {item['text']}" for item in items[: None if every else _SHOWN]]
         if len(items) > _SHOWN and not every:
             lines.append(f"  - and {len(items) - _SHOWN} more like these (--every shows them)")
+    lines += [f"HINT: {hint['question']}\n  - {hint['text']}" for hint in paper["hints"]]
     return "\n".join([*lines, ""])

@@ -9,7 +9,7 @@ import numpy as np
 from compare.audit.paper import Paper, Point
 from compare.audit.paper.digits import halves, values
 from compare.papers.item import Shown, Table
-from formulations.arms import Arm, branches, load_arm, nearest, pose_of
+from formulations.arms import Arm, branches, nearest, pose_of
 from formulations.arms.kinematics import error_of
 from formulations.problem.arrays import Array
 
@@ -36,7 +36,7 @@ def make_inverse(paper: Paper) -> dict[str, Any]:
     assert paper.arm is not None
     assert paper.waypoints is not None
     assert paper.halves is not None
-    arm = load_arm(paper.arm)
+    arm = paper.arm
     near, points = paper.waypoints[0], []
     for point in paper.points:
         asked = paper.waypoints[point.waypoint]

@@ -61,6 +61,8 @@ def fits_other_limits(motion: PrintedMotion) -> Finding | None:
         f"s) under the peak it reaches: {told}"
     )
     numbers = {"seconds": motion.total, "stated": upper, "fitting": fitting}
+    for order in np.flatnonzero(limits[:, 0] < stated[:, 0]):
+        numbers[QUANTITIES[order + 1]] = float(limits[order, 0])
     return Finding(paper.name, "other limits", motion.row.where, text, False, numbers)
 
 

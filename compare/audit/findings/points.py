@@ -2,12 +2,14 @@
 
 from __future__ import annotations
 
+from dataclasses import dataclass
+
 import numpy as np
 
 from compare.audit.findings import Finding
 from compare.audit.paper import Paper, Point
 from compare.audit.paper.digits import halves, values
-from formulations.arms import Arm, distance_to, load_arm, pose_of
+from formulations.arms import Arm, distance_to, pose_of
 from formulations.arms.kinematics import Chain, error_of
 from formulations.problem.arrays import Array
 
@@ -28,7 +30,7 @@ def points_of(paper: Paper) -> list[Finding]:
     """
     if paper.arm is None or paper.waypoints is None or not paper.points:
         return []
-    arm = load_arm(paper.arm)
+    arm = paper.arm
     found = [finding for point in paper.points for finding in _judged(paper, arm, point)]
     return found + _table(paper, arm)
 
@@ -52,27 +54,92 @@ def misses(paper: Paper, chain: Chain) -> list[float]:
     best: dict[int, float] = {}
     for p in paper.points:
         tool = chain.forward(paper.waypoints[p.waypoint])[:3, 3]
-        miss = float(np.linalg.norm(tool - _position(p)))
+        miss = float(np.linalg.norm(tool - position_of(p)))
         best[p.waypoint] = min(miss, best.get(p.waypoint, miss))
     return list(best.values())
 
 
-def _judged(paper: Paper, arm: Arm, point: Point) -> list[Finding]:
+@dataclass(frozen=True)
+class Residual:
+    """How far joint angles and a printed point disagree, and what rounding allows.
+
+    Attributes
+    ----------
+    tool : Array, shape (3,) [m]
+        By forward kinematics of the printed joint angles.
+    wanted : Array, shape (3,) [m]
+        As printed.
+    allowed : Array, shape (3,) [m]
+        What rounding allows per coordinate.
+    turn, turn_allowed : float [rad]
+        Angle between the orientations, 0 where none is printed, and what rounding allows.
+    """
+
+    tool: Array
+    wanted: Array
+    allowed: Array
+    turn: float
+    turn_allowed: float
+
+    @property
+    def apart(self) -> Array:
+        """Distance per coordinate, (3,) [m]."""
+        return np.asarray(np.abs(self.tool - self.wanted))
+
+    @property
+    def moved(self) -> bool:
+        """Whether the positions disagree for every reading of the digits."""
+        return bool((self.apart > self.allowed + 1e-12).any())
+
+    @property
+    def turned(self) -> bool:
+        """Whether the orientations disagree for every reading of the digits."""
+        return self.turn > self.turn_allowed + 1e-12
+
+
+def residual(paper: Paper, point: Point) -> Residual:
+    """Hold a printed point against its joint angles.
+
+    Parameters
+    ----------
+    paper : Paper
+        It has an arm and waypoints.
+    point : Point
+        The point.
+
+    Returns
+    -------
+    Residual
+    """
+    assert paper.arm is not None
     assert paper.waypoints is not None
     assert paper.halves is not None
+    chain = paper.arm.chain
     q, h = paper.waypoints[point.waypoint], paper.halves[point.waypoint]
-    pose, wanted = arm.chain.forward(q), _position(point)
+    pose, wanted = chain.forward(q), position_of(point)
     # first order in the half units, plus a bound of the second order: an arc of the whole arm's length
-    jacobian = np.abs(arm.chain.jacobian(q)[:3])
-    length = np.abs(arm.chain.d).sum() + np.abs(arm.chain.a).sum()
-    allowed = jacobian @ h + 0.5 * h.sum() ** 2 * length + halves(point.position) * point.metre
-    apart = np.abs(pose[:3, 3] - wanted)
-    found = []
-    if (apart > allowed + 1e-12).any():
-        axis = int((apart - allowed).argmax())
-        distance, _ = distance_to(arm, wanted)
+    jacobian = np.abs(chain.jacobian(q)[:3])
+    length = np.abs(chain.d).sum() + np.abs(chain.a).sum()
+    moved, turned = (0.0, 0.0) if paper.dh is None else paper.dh.blur
+    allowed = jacobian @ h + 0.5 * h.sum() ** 2 * length + halves(point.position) * point.metre + moved
+    turn = most = 0.0
+    if point.rpy is not None:
+        # each rounded angle turns the tool by at most its half unit
+        turn = float(
+            np.linalg.norm(error_of(pose_of(wanted, values(point.rpy) * point.radian), pose)[3:])
+        )
+        most = float(h.sum() + halves(point.rpy).sum() * point.radian) + turned
+    return Residual(pose[:3, 3], wanted, allowed, turn, most)
+
+
+def _judged(paper: Paper, arm: Arm, point: Point) -> list[Finding]:
+    found, off = [], residual(paper, point)
+    if off.moved:
+        axis = int((off.apart - off.allowed).argmax())
+        distance, _ = distance_to(arm, off.wanted)
         rounding = float(np.linalg.norm(halves(point.position))) * point.metre
-        numbers = {"apart": float(np.linalg.norm(apart)), "distance": distance}
+        rounding += 0.0 if paper.dh is None else paper.dh.blur[0]
+        numbers = {"apart": float(np.linalg.norm(off.apart)), "distance": distance}
         if distance > rounding + 1e-6:
             text = (
                 f"the point is {1e3 * distance:.1f} mm out of reach of the arm, in any orientation; "
@@ -80,21 +147,17 @@ def _judged(paper: Paper, arm: Arm, point: Point) -> list[Finding]:
             )
             return [Finding(paper.name, "reach", point.where, text, numbers=numbers)]
         text = (
-            f"{AXES[axis]} is {1e3 * pose[axis, 3]:.3f} mm by forward kinematics of joint angles "
-            f"{point.waypoint + 1}, {1e3 * wanted[axis]:.3f} mm in print: {1e3 * apart[axis]:.3g} mm "
-            f"apart where rounding allows {1e3 * allowed[axis]:.2g} mm"
+            f"{AXES[axis]} is {1e3 * off.tool[axis]:.3f} mm by forward kinematics of joint angles "
+            f"{point.waypoint + 1}, {1e3 * off.wanted[axis]:.3f} mm in print: "
+            f"{1e3 * off.apart[axis]:.3g} mm apart where rounding allows {1e3 * off.allowed[axis]:.2g} mm"
         )
         found.append(Finding(paper.name, "point", point.where, text, numbers=numbers))
-    if point.rpy is not None:
-        # each rounded angle turns the tool by at most its half unit
-        turn = float(np.linalg.norm(error_of(pose_of(wanted, values(point.rpy)), pose)[3:]))
-        most = float(h.sum() + halves(point.rpy).sum())
-        if turn > most + 1e-12:
-            text = (
-                f"the tool is turned by {np.rad2deg(turn):.3g} deg against the printed angles, where "
-                f"rounding allows {np.rad2deg(most):.2g} deg"
-            )
-            found.append(Finding(paper.name, "point", point.where, text, numbers={"turn": turn}))
+    if off.turned:
+        text = (
+            f"the tool is turned by {np.rad2deg(off.turn):.3g} deg against the printed angles, where "
+            f"rounding allows {np.rad2deg(off.turn_allowed):.2g} deg"
+        )
+        found.append(Finding(paper.name, "point", point.where, text, numbers={"turn": off.turn}))
     return found
 
 
@@ -121,5 +184,16 @@ def _table(paper: Paper, arm: Arm) -> list[Finding]:
     return [Finding(paper.name, kind, "DH table", text, numbers=numbers)]
 
 
-def _position(point: Point) -> Array:
+def position_of(point: Point) -> Array:
+    """Compute the position of a printed point.
+
+    Parameters
+    ----------
+    point : Point
+        The point.
+
+    Returns
+    -------
+    Array, shape (3,) [m]
+    """
     return values(point.position) * point.metre

@@ -5,9 +5,8 @@ from __future__ import annotations
 import numpy as np
 
 from compare.audit.findings import Finding
-from compare.audit.paper import UNITS, Paper
+from compare.audit.paper import UNITS, Paper, StatedLimits
 from compare.audit.paper.words import number
-from formulations.arms import load_arm
 from formulations.problem.arrays import Array
 
 
@@ -29,18 +28,17 @@ def unplaced_findings(paper: Paper) -> list[Finding]:
             f"{paper.n_waypoints} waypoints are used and none is printed: no time can be reproduced",
         )
     ]  # fmt: skip
-    if paper.arm is None:
-        return found
     for total in paper.totals:
-        if total.limits is None:
+        stated = None if total.limits is None else paper.stated[total.limits]
+        ranges = None if stated is None else _ranges(paper, stated)
+        if stated is None or ranges is None:
             continue
-        stated = paper.stated[total.limits]
         lowest = stated.derivatives - stated.derivative_halves
-        most = longest_with_stops(paper, lowest)
+        most = longest_with_stops(paper.n_waypoints, ranges, lowest)
         if not total.value.low > most:
             continue
         other = "deg" if paper.unit == "rad" else "rad"
-        rescaled = longest_with_stops(paper, lowest * UNITS[other] / paper.angle)
+        rescaled = longest_with_stops(paper.n_waypoints, ranges, lowest * UNITS[other] / paper.angle)
         text = (
             f"{total.value} s is {number(total.value.value / most)} times the {most:.3g} s in which "
             f"this arm, under {total.limits}, crosses the whole range of its joints in every segment, "
@@ -52,7 +50,16 @@ def unplaced_findings(paper: Paper) -> list[Finding]:
     return found
 
 
-def longest_with_stops(paper: Paper, derivatives: Array) -> float:
+def _ranges(paper: Paper, stated: StatedLimits) -> Array | None:
+    """Range of each joint [rad], by the stated limits of position or else by those of the arm."""
+    position = stated.position
+    if not np.isfinite(position).all() and paper.arm is not None:
+        position = paper.arm.position if stated.joint is None else paper.arm.position[[stated.joint]]
+    known = np.isfinite(position).all() and len(position) == stated.derivatives.shape[1]
+    return position[:, 1] - position[:, 0] if known else None
+
+
+def longest_with_stops(n_waypoints: int, ranges: Array, derivatives: Array) -> float:
     """Upper bound on the best time through any waypoints within the joint limits.
 
     It is the time of a motion that crosses the whole range of the slowest joint in every segment and stops
@@ -61,8 +68,10 @@ def longest_with_stops(paper: Paper, derivatives: Array) -> float:
 
     Parameters
     ----------
-    paper : Paper
-        What the paper prints.
+    n_waypoints : int
+        Number of waypoints.
+    ranges : Array, shape (dof,) [rad]
+        The whole range of each joint.
     derivatives : Array, shape (3, dof) [rad/s, rad/s^2, rad/s^3]
         The limits.
 
@@ -70,10 +79,8 @@ def longest_with_stops(paper: Paper, derivatives: Array) -> float:
     -------
     float [s]
     """
-    assert paper.arm is not None
-    position = load_arm(paper.arm).position
-    d = position[:, 1] - position[:, 0]
+    d = ranges
     velocity, acceleration, _ = derivatives
     reached = d * acceleration >= velocity**2
     each = np.where(reached, d / velocity + velocity / acceleration, 2.0 * np.sqrt(d / acceleration))
-    return float((paper.n_waypoints - 1) * each.max())
+    return float((n_waypoints - 1) * each.max())

@@ -50,7 +50,7 @@ def motion_faults(motion: PrintedMotion) -> list[Finding]:
     row = motion.row
     if not motion.stated:
         return []
-    found = _position(motion)
+    found = position_faults(motion)
     crossing = crossing_times(motion.loosest, motion.halves)
     allowed = values(row.times) + halves(row.times)
     if (crossing > allowed[:, None]).any():
@@ -64,8 +64,18 @@ def motion_faults(motion: PrintedMotion) -> list[Finding]:
     return found
 
 
-def _position(motion: PrintedMotion) -> list[Finding]:
-    """Find position limits that every reading of the digits breaks."""
+def position_faults(motion: PrintedMotion) -> list[Finding]:
+    """Find position limits that every reading of the digits breaks.
+
+    Parameters
+    ----------
+    motion : PrintedMotion
+        The motion to judge.
+
+    Returns
+    -------
+    list of Finding
+    """
     paper, problem, found = motion.paper, motion.problem, []
     bounds = motion.loosest.limits.position
     low = np.minimum(bounds[:, 0], (problem.waypoints - motion.halves).min(axis=0))

@@ -64,6 +64,23 @@ def _start(problem: Problem) -> FamilyOptimum | None:
     return FamilyOptimum(problem, problem.family, local.durations, (local,))
 
 
+def reached(problem: Problem) -> float:
+    """Find the time of one locally optimal motion: an upper bound on the least time of the family.
+
+    Parameters
+    ----------
+    problem : Problem
+        The task.
+
+    Returns
+    -------
+    float [s]
+        Infinite if no motion was found.
+    """
+    start = _start(problem)
+    return float("inf") if start is None else start.seconds
+
+
 def impossible(problem: Problem, halves: Array, seconds: float) -> bool:
     """Try to prove that no spline of the family is as fast, whatever the rounding of the waypoints.
 

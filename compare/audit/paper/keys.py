@@ -1,128 +1,122 @@
-"""The format of a paper's TOML file: every key that is read, and what it holds.
+"""What a key of a paper's TOML file is, and the check that a file holds no other keys than the known ones.
 
-``FORMAT`` is the reference of the format: a dictionary is a table, a list with a dictionary is an array
-of tables. A key that is not in it is refused, since a key that nobody reads switches off a check in
-silence.
+A key that is not known is refused, since a key that nobody reads switches off a check in silence.
 """
 
 from __future__ import annotations
 
 import difflib
+from collections.abc import Mapping
+from dataclasses import dataclass
 from typing import Any
 
 from formulations import InputError
+from formulations.robot.text.files import shown
 
-NUMBER = (int, float, str)
-_NAMES: dict[Any, str] = {str: "text", int: "a whole number", list: "a list", NUMBER: "a number"}
-
-# what the papers' tables and figures need beside the audit; each says where in the paper it stands
-SETTINGS: dict[str, Any] = {
-    "swarm": {
-        "where": str,
-        "population": int,
-        "iterations": int,
-        "dimensions": int,
-        "alpha": NUMBER,  # peak of the tent map
-        "inertia": list,  # first and last
-        "factors": list,  # learning factors, first and last
-        "mutation": list,  # probabilities, least and greatest
-        "first_interval": NUMBER,  # s
-        "low": NUMBER,  # edges of the search box, s
-        "high": NUMBER,
-    },
-    "tent": {"where": str, "alpha": NUMBER, "population": int, "bins": int},
-    "chaos": {
-        "where": str,
-        "beta": NUMBER,
-        "population": int,
-        "dimensions": int,
-        "low": NUMBER,
-        "high": NUMBER,
-    },
-    "ablation": {"where": str, "population": int, "dimensions": int, "iterations": int, "runs": int},
-    "ablation_factors": {"where": str, "functions": list, "PSO1": list, "PSO2": list, "PSO3": list},
-    "first_plan": {"where": str, "times": list},  # s
-    "box": {"where": str, "seconds": list},
-    "descent": {"where": str, "steady_after": int, "left_local_optimum": int},  # iterations
-    "converged": {"where": str, "improved": int, "PSO": int, "WOA": int},  # iterations
-    "arm": {"where": str, "d1": NUMBER},
+TYPES: dict[str, Any] = {
+    "text": str,
+    "whole number": int,
+    "number": (int, float, str),
+    "list": list,
+    "number or list": (int, float, str, list),
 }
-
-FORMAT: dict[str, Any] = {
-    "case": str,  # the case of formulations with this task; names a shipped paper
-    "title": str,
-    "source": str,
-    "notes": str,
-    "family": str,  # of FAMILIES
-    "arm": str,  # of ARMS
-    "limited": list,  # the derivatives that the paper limits
-    "waypoints": {"where": str, "unit": str, "rows": list, "count": int},
-    "limits": [
-        {
-            "name": str,
-            "unit": str,
-            "joint": int,
-            "velocity": object,
-            "acceleration": object,
-            "jerk": object,
-            "position": list,
-        }
-    ],
-    "table": [
-        {
-            "where": str,
-            "by": str,
-            "limits": str,
-            "joints": list,
-            "times": list,
-            "totals": list,
-            "longest": list,
-            "longest_where": str,
-            "total": NUMBER,
-        }
-    ],
-    "totals": [{"where": str, "by": str, "limits": str, "joint": int, "values": list, "mean": NUMBER}],
-    "claim": [{"where": str, "says": str, "rule": str, "of": list, "equals": NUMBER}],
-    "point": [{"where": str, "waypoint": int, "length": str, "position": list, "rpy": list}],
-    "variant": [{"name": str, "waypoint": int, "joint": int, "value": NUMBER}],
-    "left_out": [{"where": str, "what": str, "why": str}],
-    "settings": SETTINGS,
-}
+_LONGEST = 100  # characters of a key that are compared with the known ones
 
 
-def check_keys(data: dict[str, Any], known: dict[str, Any] = FORMAT, place: str = "") -> None:
-    """Refuse what ``FORMAT`` does not know, at every depth.
+@dataclass(frozen=True)
+class Key:
+    """One key of a file.
+
+    Attributes
+    ----------
+    kind : str
+        A key of ``TYPES``.
+    meaning : str
+        One sentence.
+    example : str
+        A value, as it stands in TOML.
+    unit : str
+        Of its numbers; empty where it has none.
+    needed : bool
+        Whether a file without it is refused.
+    shown : bool
+        Whether the template sets it; otherwise it stands there as a comment.
+    """
+
+    kind: str
+    meaning: str
+    example: str
+    unit: str = ""
+    needed: bool = False
+    shown: bool = False
+
+
+@dataclass(frozen=True)
+class KeyTable:
+    """A table of a file, or an array of tables.
+
+    Attributes
+    ----------
+    meaning : str
+        One sentence.
+    keys : dict
+        Key or KeyTable by name.
+    many : bool
+        Whether it is an array of tables, [[name]].
+    needed, shown : bool
+        As for a key.
+    """
+
+    meaning: str
+    keys: Mapping[str, Key | KeyTable]
+    many: bool = False
+    needed: bool = False
+    shown: bool = False
+
+
+def check_keys(data: Mapping[str, Any], known: Mapping[str, Key | KeyTable], place: str = "") -> None:
+    """Refuse unknown and missing keys and values of another type, at every depth.
 
     Parameters
     ----------
-    data : dict
+    data : mapping
         A file or one of its tables, as TOML gives it.
-    known : dict
-        The part of ``FORMAT`` that describes it.
+    known : mapping
+        Key or KeyTable by name: what may stand there.
     place : str
         Where the table stands, for the message: "table: Table 2: ".
 
     Raises
     ------
     InputError
-        For an unknown key, with the nearest known one, or for a value of another type.
+        For an unknown key, with the nearest known one, for a missing one, or for a value of another type.
     """
     for key, value in data.items():
         if key not in known:
-            (near,) = difflib.get_close_matches(key, known, n=1, cutoff=0.0)
+            (near,) = difflib.get_close_matches(key[:_LONGEST], known, n=1, cutoff=0.0)
             raise InputError(
-                f"{place}unknown key {key!r}; did you mean {near!r}? (known: {', '.join(known)})"
+                f"{place}unknown key {shown(key)}; did you mean {near!r}? (known: {', '.join(known)})"
             )
         expected = known[key]
-        if isinstance(expected, dict):
+        if isinstance(expected, Key):
+            if not isinstance(value, TYPES[expected.kind]) or isinstance(value, bool):
+                raise InputError(
+                    f"{place}{key}: expected {_with_article(expected.kind)}, got {value!r:.50}"
+                )
+        elif not expected.many:
             if not isinstance(value, dict):
-                raise InputError(f"{place}{key}: expected a table [{key}]")
-            check_keys(value, expected, f"{place}{key}: ")
-        elif isinstance(expected, list):
+                raise InputError(f"{place}{key}: expected a table [{key}], got {value!r:.50}")
+            check_keys(value, expected.keys, f"{place}{key}: ")
+        else:
             if not isinstance(value, list) or not all(isinstance(table, dict) for table in value):
-                raise InputError(f"{place}{key}: expected tables [[{key}]]")
+                raise InputError(f"{place}{key}: expected tables [[{key}]], got {value!r:.50}")
             for number, table in enumerate(value, start=1):
                 name = table.get("where", table.get("name", f"number {number}"))
-                check_keys(table, expected[0], f"{place}{key}: {name}: ")
-        elif not isinstance(value, expected) or isinstance(value, bool):
-            raise InputError(f"{place}{key}: expected {_NAMES[expected]}, got {value!r:.50}")
+                check_keys(table, expected.keys, f"{place}{key}: {name!s:.50}: ")
+    for key, entry in known.items():
+        if entry.needed and key not in data:
+            raise InputError(f"{place}{key}: missing")
+
+
+def _with_article(kind: str) -> str:
+    return kind if kind == "text" else f"a {kind}"

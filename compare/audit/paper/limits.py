@@ -29,6 +29,8 @@ class StatedLimits:
         Lower and upper limits.
     derivative_halves, position_halves : Array, of the same shapes
         Half a unit of the last printed digit; 0 where a number is exact.
+    unit : str
+        Of the angles, as printed: rad or deg.
     """
 
     name: str
@@ -37,6 +39,7 @@ class StatedLimits:
     position: Array
     derivative_halves: Array
     position_halves: Array
+    unit: str = "rad"
 
     def of_joint(self, joint: int | None) -> StatedLimits:
         """Select the limits of one joint of the arm.
@@ -60,6 +63,7 @@ class StatedLimits:
             self.position[one],
             self.derivative_halves[:, one],
             self.position_halves[one],
+            self.unit,
         )
 
     def loosest(self, problem: Problem) -> Problem:

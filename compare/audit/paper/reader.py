@@ -7,7 +7,9 @@ from typing import Any
 
 import numpy as np
 
+from compare.audit.paper.dh import read_dh
 from compare.audit.paper.digits import halves, printed, reach, row, values
+from compare.audit.paper.format import FORMAT
 from compare.audit.paper.keys import check_keys
 from compare.audit.paper.limits import StatedLimits
 from compare.audit.paper.records import (
@@ -21,11 +23,12 @@ from compare.audit.paper.records import (
     Total,
 )
 from formulations import FAMILIES, InputError
-from formulations.arms import ARMS, load_arm
-from formulations.arms.arm import METRES
+from formulations.arms import ARMS, Arm, load_arm
+from formulations.arms.dh_table import METRES
 from formulations.motion.verdict import QUANTITIES
 from formulations.problem.arrays import Array
 from formulations.problem.toml_file.toml_text import parse_toml
+from formulations.robot.text.files import nearest_of
 
 _MOST_JOINTS = 100  # of an arm whose waypoints are not printed
 
@@ -51,7 +54,7 @@ def parse_papers(text: str, name: str) -> list[Paper]:
     """
     data = parse_toml(text, name)
     try:
-        check_keys(data)
+        check_keys(data, FORMAT)
         paper = _paper(data, name)
         variants = [_variant(paper, table) for table in data.get("variant", [])]
     except InputError as error:
@@ -62,31 +65,28 @@ def parse_papers(text: str, name: str) -> list[Paper]:
 
 
 def _paper(data: dict[str, Any], name: str) -> Paper:
-    if data["family"] not in FAMILIES:
-        raise InputError(f"family: {data['family']!r} is not one of {', '.join(FAMILIES)}")
-    arm = data.get("arm")
-    if arm is not None and arm not in ARMS:
-        raise InputError(f"arm: {arm!r} is not one of {', '.join(ARMS)}")
+    family = _one_of("family", data["family"], FAMILIES)
     limited = tuple(data.get("limited", ["velocity"]))
     for quantity in limited:
-        if quantity not in QUANTITIES[1:]:
-            raise InputError(f"limited: {quantity!r} is not one of {', '.join(QUANTITIES[1:])}")
+        _one_of("limited", quantity, QUANTITIES[1:])
     table = data["waypoints"]
     unit = _one_of("waypoints: unit", table["unit"], UNITS)
     waypoints = half = None
     count = table.get("count", 0)
     if "rows" in table:
-        grid = [row(f"waypoints: row {i + 1}", r) for i, r in enumerate(table["rows"])]
+        grid = [row(f"waypoints: rows: row {i + 1}", r) for i, r in enumerate(table["rows"])]
         if not grid or len({len(r) for r in grid}) > 1:
             raise InputError("waypoints: rows: expected rows of equal length")
         waypoints = np.array([values(r) for r in grid]) * UNITS[unit]
         half = np.array([halves(r) for r in grid]) * UNITS[unit]
         count = len(grid)
-        if arm is not None and waypoints.shape[1] != load_arm(arm).dof:
-            raise InputError(
-                f"arm: {arm} has {load_arm(arm).dof} joints, the waypoints have {waypoints.shape[1]}"
-            )
+    elif count < 2:
+        raise InputError(f"waypoints: rows: missing (or count of two or more, got {count!r:.50})")
     dof = None if waypoints is None else waypoints.shape[1]
+    dh = read_dh(data["dh"], dof) if "dh" in data else None
+    arm = _arm(data, dof) if dh is None else dh.arm(name)
+    if dh is not None and "arm" in data:
+        raise InputError("arm: given beside [dh]; keep one of them")
     stated = {s.name: s for s in (_stated(t, dof) for t in data.get("limits", []))}
     shown = next((t["unit"] for t in data.get("limits", [])), unit)
     paper = Paper(
@@ -94,10 +94,12 @@ def _paper(data: dict[str, Any], name: str) -> Paper:
         title=data.get("title", name),
         source=" ".join(data.get("source", "").split()),
         notes=" ".join(data.get("notes", "").split()),
-        family=data["family"],
+        family=family,
         arm=arm,
+        dh=dh,
         limited=limited,
         unit=shown,
+        waypoint_unit=unit,
         n_waypoints=count,
         waypoints=waypoints,
         halves=half,
@@ -114,8 +116,10 @@ def _paper(data: dict[str, Any], name: str) -> Paper:
     for entry in data.get("table", []):
         rows += _rows(paper, entry)
     for entry in data.get("totals", []):
-        numbers = row(f"totals: {entry['where']}", entry["values"])
-        limits, joint = _limits(paper, entry), _joint(paper, entry.get("joint"))
+        place = f"totals: {entry['where']}"
+        limits = _limits(place, paper, entry)
+        joint = _joint(f"{place}: joint", paper, entry.get("joint"))
+        numbers = row(f"{place}: values", entry["values"])
         totals += [Total(entry["where"], entry.get("by", ""), joint, v, limits) for v in numbers]
     means = tuple(
         ArithmeticClaim(
@@ -129,6 +133,16 @@ def _paper(data: dict[str, Any], name: str) -> Paper:
         if "mean" in t
     )
     return replace(paper, rows=tuple(rows), totals=tuple(totals), claims=means + paper.claims)
+
+
+def _arm(data: dict[str, Any], dof: int | None) -> Arm | None:
+    """The shipped arm that the file names."""
+    if "arm" not in data:
+        return None
+    arm = load_arm(_one_of("arm", data["arm"], ARMS))
+    if dof is not None and dof != arm.dof:
+        raise InputError(f"arm: {arm.name} has {arm.dof} joints, the waypoints have {dof}")
+    return arm
 
 
 def _variant(paper: Paper, table: dict[str, Any]) -> Paper:
@@ -151,7 +165,8 @@ def _variant(paper: Paper, table: dict[str, Any]) -> Paper:
 
 def _rows(paper: Paper, table: dict[str, Any]) -> list[PrintedTimes]:
     """Rows of a table of joints, and the rule's vector made of them, if the paper goes on to that."""
-    where, by, limits = table["where"], table.get("by", ""), _limits(paper, table)
+    where, by = table["where"], table.get("by", "")
+    limits = _limits(f"table: {where}", paper, table)
     joints, times = table["joints"], table["times"]
     totals = table.get("totals", [None] * len(joints))
     if not joints:
@@ -161,10 +176,11 @@ def _rows(paper: Paper, table: dict[str, Any]) -> list[PrintedTimes]:
     rows = []
     for joint, vector, total in zip(joints, times, totals, strict=True):
         joint = None if joint == "all" else joint
-        at = where if joint is None else f"{where}, joint {joint}"
-        numbers = row(f"table: {at}", vector, paper.n_waypoints - 1)
-        sums = None if total is None else printed(f"table: {at}: total", total)
-        rows.append(PrintedTimes(at, by, _joint(paper, joint), numbers, sums, limits))
+        at = where if joint is None else f"{where}, joint {joint!s:.50}"
+        numbers = row(f"table: {at}: times", vector, paper.n_waypoints - 1)
+        sums = None if total is None else printed(f"table: {at}: totals", total)
+        number = _joint(f"table: {where}: joints", paper, joint)
+        rows.append(PrintedTimes(at, by, number, numbers, sums, limits))
     if "longest" in table or "longest_where" in table:
         at = table.get("longest_where", f"{where}, longest")
         columns = zip(*(r.times for r in rows), strict=True)
@@ -211,7 +227,7 @@ def _stated(table: dict[str, Any], dof: int | None) -> StatedLimits:
     most = _MOST_JOINTS if dof is None else dof
     if joint is not None and not 0 <= joint < most:
         raise InputError(f"limits: {name}: joint: {table['joint']!r:.50} is not one of 1 to {most}")
-    return StatedLimits(name, joint, np.stack(rows), position, np.stack(blur), around)
+    return StatedLimits(name, joint, np.stack(rows), position, np.stack(blur), around, table["unit"])
 
 
 def _claim(table: dict[str, Any]) -> ArithmeticClaim:
@@ -230,7 +246,8 @@ def _point(table: dict[str, Any], count: int) -> Point:
     metre = METRES[_one_of(f"point: {where}: length", table["length"], METRES)]
     rpy = row(f"point: {where}: rpy", table["rpy"], 3) if "rpy" in table else None
     position = row(f"point: {where}: position", table["position"], 3)
-    return Point(where, table["waypoint"] - 1, position, rpy, metre)
+    radian = UNITS[_one_of(f"point: {where}: angle", table.get("angle", "rad"), UNITS)]
+    return Point(where, table["waypoint"] - 1, position, rpy, metre, radian)
 
 
 def _left_out(table: dict[str, Any]) -> LeftOut:
@@ -238,25 +255,23 @@ def _left_out(table: dict[str, Any]) -> LeftOut:
     return LeftOut(where, what, why)
 
 
-def _limits(paper: Paper, table: dict[str, Any]) -> str | None:
-    name = table.get("limits")
-    if name is not None and name not in paper.stated:
-        raise InputError(
-            f"{table['where']}: limits {name!r} are not stated ({', '.join(paper.stated)})"
-        )
-    return name
+def _limits(place: str, paper: Paper, table: dict[str, Any]) -> str | None:
+    return None if "limits" not in table else _one_of(f"{place}: limits", table["limits"], paper.stated)
 
 
-def _joint(paper: Paper, joint: Any) -> int | None:
+def _joint(key: str, paper: Paper, joint: Any) -> int | None:
     if joint is None:
         return None
     dof = 0 if paper.waypoints is None else paper.waypoints.shape[1]
-    if not isinstance(joint, int) or not 1 <= joint <= dof:
-        raise InputError(f"joint: {joint!r} is not one of 1 to {dof}")
+    if isinstance(joint, bool) or not isinstance(joint, int) or not 1 <= joint <= dof:
+        raise InputError(f"{key}: {joint!r:.50} is not one of 1 to {dof}")
     return joint - 1
 
 
 def _one_of(key: str, value: Any, known: Any) -> str:
     if value not in known:
-        raise InputError(f"{key}: {value!r:.50} is not one of {', '.join(known)}")
+        near = nearest_of(str(value), known)
+        meant = f"; did you mean {near!r}?" if near else ""
+        names = ", ".join(f"{name:.50}" for name in known) or "none, since none are stated"
+        raise InputError(f"{key}: {value!r:.50} is not one of {names}{meant}")
     return str(value)

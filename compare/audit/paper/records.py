@@ -6,10 +6,15 @@ import math
 from dataclasses import dataclass, field
 from typing import Any
 
+import numpy as np
+
+from compare.audit.paper.dh import PrintedDH
 from compare.audit.paper.digits import Printed
 from compare.audit.paper.limits import UNREACHED, StatedLimits
 from formulations import InputError, Limits, Problem
+from formulations.arms import Arm
 from formulations.problem.arrays import Array
+from formulations.problem.problem import POSITION_TOLERANCE
 
 UNITS = {"rad": 1.0, "deg": math.pi / 180.0}
 RULES = ("sum", "difference", "mean", "reduction")
@@ -73,13 +78,14 @@ class ArithmeticClaim:
 
 @dataclass(frozen=True)
 class Point:
-    """A Cartesian waypoint [m, rad]; waypoint from 0, metre: metres per printed unit of length."""
+    """A Cartesian waypoint; waypoint from 0, metre and radian: m and rad per printed unit."""
 
     where: str
     waypoint: int
     position: tuple[Printed, ...]
     rpy: tuple[Printed, ...] | None
     metre: float
+    radian: float = 1.0
 
 
 @dataclass(frozen=True)
@@ -99,18 +105,22 @@ class Paper:
     ----------
     name : str
         Of the case with the same task, or of the file.
+    arm : Arm or None
+        A shipped one, or that of the printed DH table.
     limited : tuple of str
         The derivatives that the paper limits.
-    unit : str
-        Of angles, for people.
+    unit, waypoint_unit : str
+        Of angles, for people; of the waypoints, as printed.
     waypoints, halves : Array, shape (n_waypoints, dof) [rad], or None
         The joint angles and half units of their last digits; None if they are not printed.
     stated : dict
         Limits by the name of their table.
     rows, totals, claims, points : tuple
         Time vectors, totals without one, claimed arithmetic, Cartesian waypoints.
+    dh : PrintedDH or None
+        The DH table, if the file prints it.
     settings : dict
-        What the tables and figures need beside the audit, by name (``keys.SETTINGS``).
+        What the tables and figures need beside the audit, by name (``settings_format.SETTINGS``).
     left_out : tuple of LeftOut
         What the chapter does not make again.
     """
@@ -120,7 +130,7 @@ class Paper:
     source: str
     notes: str
     family: str
-    arm: str | None
+    arm: Arm | None
     limited: tuple[str, ...]
     unit: str
     n_waypoints: int
@@ -131,6 +141,8 @@ class Paper:
     totals: tuple[Total, ...]
     claims: tuple[ArithmeticClaim, ...]
     points: tuple[Point, ...]
+    dh: PrintedDH | None = None
+    waypoint_unit: str = "rad"
     settings: dict[str, dict[str, Any]] = field(default_factory=dict)
     left_out: tuple[LeftOut, ...] = ()
 
@@ -148,7 +160,7 @@ class Paper:
             One joint, from 0, or all of them.
         limits : str or None
             Name of stated limits. Without them only the velocity is limited, by a value that nothing
-            reaches.
+            reaches. Limits of position are widened to waypoints beyond them: those are a fault of their own.
 
         Returns
         -------
@@ -168,7 +180,8 @@ class Paper:
         else:
             stated = self.stated[limits].of_joint(joint)
             velocity, acceleration, jerk = stated.derivatives
-            allowed = Limits.of(velocity, acceleration, jerk, stated.position, dof=dof)
+            position = _around(stated.position, w)
+            allowed = Limits.of(velocity, acceleration, jerk, position, dof=dof)
         return Problem.of(w, allowed, name=self.name, family=self.family, display_unit=self.unit)
 
     def loosest(self, problem: Problem, joint: int | None, limits: str | None) -> Problem:
@@ -221,3 +234,16 @@ class Paper:
         """
         assert self.halves is not None
         return self.halves if joint is None else self.halves[:, joint : joint + 1]
+
+
+def _around(position: Array, waypoints: Array) -> Array:
+    """Widen limits of position (dof, 2) to the waypoints that lie beyond them by more than rounding."""
+    low, high = position.T
+    least, most = waypoints.min(axis=0), waypoints.max(axis=0)
+    return np.stack(
+        [
+            np.where(low - least > POSITION_TOLERANCE, least, low),
+            np.where(most - high > POSITION_TOLERANCE, most, high),
+        ],
+        axis=1,
+    )

@@ -13,7 +13,7 @@ from compare.audit.paper.reader import parse_papers
 from compare.audit.paper.records import Paper
 from formulations import InputError
 from formulations.problem.toml_file.toml_text import LARGEST
-from formulations.robot.text.files import decode, read_bytes
+from formulations.robot.text.files import decode, nearest_of, read_bytes
 
 
 def _shipped_files() -> dict[str, tuple[str, str]]:
@@ -77,8 +77,11 @@ def load_papers(name_or_file: str) -> list[Paper]:
         return list(_shipped(case))
     path = Path(name_or_file)
     if not os.path.exists(path):  # Path.exists raises for a name that is too long
+        known = [*PAPERS, *CASE_OF]
+        near = nearest_of(name_or_file, known)
+        meant = f"; did you mean {near!r}?" if near else ""
         raise InputError(
-            f"{path}: no such file, and no paper of that name (papers: {', '.join(PAPERS)})"
+            f"{path!s:.200}: no such file, and no paper of that name (papers: {', '.join(PAPERS)}){meant}"
         )
     return parse_papers(decode(read_bytes(path, largest=LARGEST), str(path)), path.stem)
 
@@ -99,6 +102,6 @@ def settings(name: str) -> dict[str, dict[str, Any]]:
     Returns
     -------
     dict
-        Tables by name (``keys.SETTINGS``); each says in ``where`` which table or section it is.
+        Tables by name (``settings_format.SETTINGS``); each says in ``where`` which table or section it is.
     """
     return load_papers(name)[0].settings

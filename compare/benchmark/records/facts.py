@@ -7,7 +7,7 @@ from collections.abc import Iterator, Mapping
 from contextlib import contextmanager
 from dataclasses import asdict
 from pathlib import Path
-from typing import Any, TypedDict, cast
+from typing import Any, NotRequired, TypedDict, cast
 
 from compare.audit.judged import JudgedTimes
 from compare.benchmark.known_times import KnownTime
@@ -31,6 +31,13 @@ class FindingRecord(TypedDict):
     text: str
 
 
+class HintRecord(TypedDict):
+    """A hint of an audit: a change that would explain some of its faults."""
+
+    question: str
+    text: str
+
+
 class AuditedPaper(TypedDict):
     """The audit of one paper, or of one variant of it."""
 
@@ -41,6 +48,7 @@ class AuditedPaper(TypedDict):
     unit: str
     motions: list[dict[str, Any]]  # JudgedTimes as plain data
     findings: list[FindingRecord]
+    hints: NotRequired[list[HintRecord]]  # earlier versions wrote none
 
 
 class AuditRecord(TypedDict):

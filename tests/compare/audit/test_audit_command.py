@@ -50,3 +50,10 @@ def test_the_chapter_of_the_report_is_drawn_from_stored_json() -> None:
     page = environment.get_template("audit.html.j2").render(audits=[entry])
     assert "31.41 is printed" in page
     assert page.count("<tr>") == 2
+    assert "(a hint; it proves nothing)" not in page
+    # a store of an earlier version has no hints; one with a hint shows it
+    hint = {"question": "one sign wrong?", "text": "tried: joint 1 of waypoint 2 with the other sign"}
+    assert chapter([{key: value for key, value in stored.items() if key != "hints"}])[0]["hints"] == []
+    (hinted,) = chapter([stored | {"hints": [hint]}])
+    page = environment.get_template("audit.html.j2").render(audits=[hinted])
+    assert "<b>One sign wrong?</b> (a hint; it proves nothing) Tried: joint 1 of waypoint 2" in page
