@@ -12,10 +12,11 @@ from typing import Any
 import matplotlib.pyplot as plt
 import numpy as np
 from matplotlib.figure import Figure
+from scipy import stats
 
 from compare.audit.motion.minima import impossible
 from compare.papers.item import Item, Shown, Table
-from compare.papers.verdicts import AT_A_LIMIT, same_gain
+from compare.papers.verdicts import AT_A_LIMIT, agrees, same_gain
 from compare.papers.wang_2025.joint_1 import (
     FEW,
     IN_FORCE,
@@ -36,6 +37,7 @@ from compare.report.style import BLACK, BLUE, GREY, ORANGE, VERMILION, styled
 from compare.screen import table
 
 RUNS = {False: 60, True: 1000}
+ALPHA = 0.05  # significance of a difference in scatter
 _RIVALS = {
     "pso": "PSO with the constants of constriction",
     "pso-1995": "PSO of 1995",
@@ -166,6 +168,7 @@ def make_table_8(full: bool) -> dict[str, Any]:
         "rows": [list(astuple(row)) for row in rows],
         "summary": summarise(rows),
         "boxes": other,
+        "scatter": {limit: _same_scatter(rows, limit) for limit in LIMITS},
         "accelerations": accelerations(),
     }
 
@@ -290,7 +293,37 @@ def _remarks_8(data: dict[str, Any], printed_means: dict[str, float]) -> list[st
             )
             + "."
         )
+    remarks.append(_stability(data["summary"], data["scatter"]))
     return remarks
+
+
+def _same_scatter(rows: list[JointOneRun], limit: str) -> float:
+    """The p value that MIPSO and PSO scatter alike (Brown and Forsythe)."""
+    groups = [
+        [r.seconds for r in rows if (r.limit, r.swarm) == (limit, swarm) and r.seconds is not None]
+        for swarm in (SWARM, "pso")
+    ]
+    p = stats.levene(*groups, center="median").pvalue if min(map(len, groups)) > 1 else np.nan
+    return float(p) if np.isfinite(p) else 1.0
+
+
+def _stability(summary: dict[str, Any], scatter: dict[str, float]) -> str:
+    """Whether MIPSO scatters less than PSO, as the paper says."""
+    printed = [summary[IN_FORCE]["printed"][name]["deviation"] for name in ("MIPSO", "PSO")]
+    text = (
+        f"Sec. 4.2.2 calls MIPSO the more stable one: its printed runs scatter by {printed[0]:.4f} s, those "
+        f"of PSO by {printed[1]:.4f} s (standard deviation)."
+    )
+    for limit in (IN_FORCE, TABLE_6):
+        facts, p = summary[limit], scatter[limit]
+        mine, other = (facts["swarms"][swarm]["all"]["deviation"] for swarm in (SWARM, "pso"))
+        if mine is not None and other is not None:
+            outcome = agrees(mine < other) if p < ALPHA else "which shows no difference"
+            text += (
+                f" Under {facts['acceleration']:.0f} deg/s² the reproduced runs scatter by {mine:.4f} s and "
+                f"{other:.4f} s (Brown-Forsythe test, p = {p:.2g}), {outcome}."
+            )
+    return text
 
 
 def _impossible(counts: dict[str, int], acceleration: float) -> str:

@@ -32,6 +32,7 @@ def test_wang_table_8() -> None:
         "rows": [],
         "summary": joint_1.summarise(rows),
         "accelerations": {"table 9": 59.98},
+        "scatter": {limit: table_8._same_scatter(rows, limit) for limit in joint_1.LIMITS},
     }
 
     def remarks() -> str:
@@ -40,13 +41,16 @@ def test_wang_table_8() -> None:
     assert "60 deg/s² was in force" in remarks()
     assert "3 of MIPSO" in remarks()
     assert remarks().count("The gain of MIPSO over PSO is reproduced") == 2
+    assert remarks().count("(Brown-Forsythe test, p = 1), which shows no difference") == 2
     data["accelerations"] = {"table 9": 59.98, "table 10": 80.0}
     data["impossible"] = {"PSO": 0, "IPSO": 0, "MIPSO": 0}
     for limit in joint_1.LIMITS:
-        data["summary"][limit]["swarms"]["pso"]["all"]["mean"] = 3.30
+        data["summary"][limit]["swarms"]["pso"]["all"] |= {"mean": 3.30, "deviation": 0.1}
+        data["scatter"][limit] = 0.001
     assert "was in force" not in remarks()
     assert "No printed run is proved impossible" in remarks()
     assert remarks().count("The gain of MIPSO over PSO is not reproduced") == 2
+    assert remarks().count("0.1000 s (Brown-Forsythe test, p = 0.001), as the paper says") == 2
 
 
 def test_wang_figures_4_and_5() -> None:

@@ -19,6 +19,7 @@ from compare.papers.wang_2025 import (
     ITEMS,
     ablation,
     cec2017,
+    equations_5_7,
     figures_17_19,
     paper,
     table_3,
@@ -271,3 +272,26 @@ def test_each_figure_and_table_of_the_paper_is_made_again_or_left_out_with_a_rea
             for first, last in re.findall(r"(\d+)(?:-(\d+))?", numbers):
                 found[kind] |= set(range(int(first), int(last or first) + 1))
     assert found == {"Fig": set(range(1, 20)), "Table": set(range(1, 11))}
+
+
+# --- Eqs 5 to 7 -----------------------------------------------------------------------------------
+
+
+def test_the_papers_linear_system_gives_the_spline_and_its_row_2_as_printed_is_singular() -> None:
+    a = equations_5_7.matrix(np.array([2.0, 3.0, 5.0]))
+    # rows 2, 5 and 14 as eq. 5 prints them, row 2 with its -1 at k21
+    np.testing.assert_array_equal(a[1], [12, 4, 1, 0, 0, 0, 0, 0, -1, 0, 0, 0, 0, 0])
+    np.testing.assert_array_equal(a[4], [0, 0, 0, 0, 405, 108, 27, 6, 1, 0, 0, 0, -1, 0])
+    np.testing.assert_array_equal(a[13], np.eye(14)[9])
+    data = equations_5_7.make_system(False)
+    for row in data["rows"]:
+        assert row["ranks"] == {"by eq. 4": 14, "as printed": 13}
+        assert row["apart"] < 1e-9
+    told = equations_5_7.show_system(data).remarks
+    assert "gives the spline that all items use" in told[0]
+    assert "singular: that cannot be meant" in told[1]
+    data["rows"][0] |= {"apart": 0.1, "ranks": {"by eq. 4": 14, "as printed": 14}}
+    data["rows"][1]["ranks"] = data["rows"][0]["ranks"]
+    told = equations_5_7.show_system(data).remarks
+    assert "gives another motion than the spline" in told[0]
+    assert "regular" in told[1]
