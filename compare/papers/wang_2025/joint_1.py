@@ -15,6 +15,7 @@ from scipy import stats
 
 from compare.audit.paper import Paper, PrintedTimes, load_papers, settings
 from compare.benchmark.grade import Run, grade
+from compare.papers.words import seconds
 from formulations import FAMILIES, Problem, family_optimum, load
 from formulations.problem.arrays import Array
 from formulations.proofs.family import family_bound
@@ -22,6 +23,12 @@ from formulations.proofs.family import family_bound
 TABLE_6, IN_FORCE = "as printed in table 6", "as tables 9 and 10 imply"
 SWARMS = ["pso-1995", "pso-linear", "pso", "mipso", "mipso-printed"]
 CONFIDENCE = 0.95
+RIVALS = {
+    "pso": "PSO with the constants of constriction",
+    "pso-1995": "PSO of 1995",
+    "mipso-printed": "MIPSO with eq. 15 and 16 as they are printed",
+}
+"""What MIPSO is compared with in words, by swarm."""
 
 
 def _paper() -> Paper:
@@ -223,3 +230,25 @@ def statistics(times: Array) -> dict[str, Any]:
         "best": float(solved.min()) if n else None,
         "worst": float(solved.max()) if n else None,
     }
+
+
+def cells(entry: dict[str, Any]) -> list[str]:
+    """Write statistics as the cells of a table.
+
+    Parameters
+    ----------
+    entry : dict
+        Of ``statistics``.
+
+    Returns
+    -------
+    list of str
+        Runs, mean, interval, deviation, best, worst.
+    """
+    runs = f"{entry['runs']}" + (f", {entry['unsolved']} unsolved" if entry["unsolved"] else "")
+    interval = entry["interval"]
+    shown = "none" if interval is None else f"{interval[0]:.4f} to {interval[1]:.4f}"
+    mean, deviation, best, worst = (
+        seconds(entry[name]) for name in ("mean", "deviation", "best", "worst")
+    )
+    return [runs, mean, shown, deviation, best, worst]

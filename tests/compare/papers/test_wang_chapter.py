@@ -21,9 +21,10 @@ from compare.papers.wang_2025 import (
     cec2017,
     equations_5_7,
     figures_17_19,
+    joint_1,
     paper,
     table_3,
-    table_8,
+    table_8_boxes,
     table_9,
 )
 from formulations import load
@@ -241,23 +242,23 @@ def test_table_8_says_what_another_box_does() -> None:
     def entry(swarm: str, mean: float | None, unsolved: int = 0) -> dict[str, Any]:
         return {
             "box": [0.386, 2.0],
-            "limit": table_8.IN_FORCE,
+            "limit": joint_1.IN_FORCE,
             "swarm": swarm,
             "mean": mean,
             "unsolved": unsolved,
         }
 
-    summary = {table_8.IN_FORCE: {"acceleration": 60.0, "bound": 3.2787}}
+    summary = {joint_1.IN_FORCE: {"acceleration": 60.0, "bound": 3.2787}}
     means = {"MIPSO": 3.2789, "PSO": 3.5640}
-    swarms = [entry("mipso", 3.28), *(entry(name, 3.56, 7) for name in table_8._RIVALS)]
-    (told,) = table_8._box_remarks({"boxes": swarms, "summary": summary}, means)
+    swarms = [entry("mipso", 3.28), *(entry(name, 3.56, 7) for name in joint_1.RIVALS)]
+    (told,) = table_8_boxes.box_remarks({"boxes": swarms, "summary": summary}, means)
     assert "its gain over PSO is reproduced" in told
     assert "not in the means: 7 of pso" in told
     swarms[1]["mean"] = 3.27
-    (told,) = table_8._box_remarks({"boxes": swarms, "summary": summary}, means)
+    (told,) = table_8_boxes.box_remarks({"boxes": swarms, "summary": summary}, means)
     assert "its gain over PSO is not reproduced" in told
     swarms[0]["mean"] = None
-    (told,) = table_8._box_remarks({"boxes": swarms, "summary": summary}, means)
+    (told,) = table_8_boxes.box_remarks({"boxes": swarms, "summary": summary}, means)
     assert "no run of MIPSO or of PSO is feasible" in told
 
 
