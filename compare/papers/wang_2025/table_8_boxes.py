@@ -58,8 +58,8 @@ def box_table(data: dict[str, Any]) -> Table:
                       seconds(facts["swarms"][entry["swarm"]]["all"]["mean"])])  # fmt: skip
     caption = (
         "Other readings of the search box, from the least time of a segment in Tables 9 and 10: to the "
-        "greatest time there, and, as for Li 2022, to the first plan. The box of the tables above ends at 3 "
-        "times the shortest plan of equal segments."
+        "greatest time there, and, as for Li 2022, to the first plan. Half as many runs as above, where the "
+        "box ends at 3 times the shortest plan of equal segments."
     )
     return Table(header, lines, caption, (1, 3, 4, 5, 6, 7, 8, 9))
 
