@@ -100,7 +100,11 @@ class Graded:
 
 
 def grade(
-    run: Run, problem: Problem, bound: float | None, proof: str = BoundProof.local_optimum
+    run: Run,
+    problem: Problem,
+    bound: float | None,
+    proof: str = BoundProof.local_optimum,
+    box: tuple[float, float] | None = None,
 ) -> Graded:
     """Run a swarm and judge its best vector by the independent check.
 
@@ -113,6 +117,8 @@ def grade(
         What the gap is measured against; None: the row has no gap.
     proof : BoundProof or its text
         What stands behind the bound.
+    box : tuple of float, optional [s]
+        Least and greatest duration that the swarm may try, where a paper is read so (``search_box``).
 
     Returns
     -------
@@ -125,7 +131,7 @@ def grade(
     else:
         joints = [-1]
         objectives = [Objective(problem, stretch=run.coding == "stretched")]
-    lo, hi = search_box(problem)
+    lo, hi = search_box(problem, box)
     swarm = algorithm(run.swarm)
     made_by = provenance_of(run.swarm, problem, run.population, run.time_limit, run.constants)
     search = swarm.search(made_by.time_limit)

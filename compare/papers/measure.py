@@ -17,7 +17,13 @@ from formulations.motion.verdict import QUANTITIES
 from formulations.problem.arrays import Array
 
 
-def trials(problem: Problem, swarm: str, budget: Budget, runs: int) -> list[Graded]:
+def trials(
+    problem: Problem,
+    swarm: str,
+    budget: Budget,
+    runs: int,
+    box: tuple[float, float] | None = None,
+) -> list[Graded]:
     """Run a swarm as the papers do: an infeasible candidate has the worst fitness.
 
     Parameters
@@ -30,6 +36,8 @@ def trials(problem: Problem, swarm: str, budget: Budget, runs: int) -> list[Grad
         Population and iterations.
     runs : int
         Number of runs, with seeds 0, 1, ...
+    box : tuple of float, optional [s]
+        Another reading of the box that the swarm searches: least and greatest duration of each segment.
 
     Returns
     -------
@@ -38,7 +46,7 @@ def trials(problem: Problem, swarm: str, budget: Budget, runs: int) -> list[Grad
     """
     size = budget.evaluations, budget.population
     return [
-        grade(Run(problem.name, "shared", swarm, seed, *size), problem, None, "none")
+        grade(Run(problem.name, "shared", swarm, seed, *size), problem, None, "none", box)
         for seed in range(runs)
     ]
 

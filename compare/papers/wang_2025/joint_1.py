@@ -15,6 +15,7 @@ from scipy import stats
 
 from compare.audit.paper import Paper, PrintedTimes, load_papers, settings
 from compare.benchmark.grade import Run, grade
+from compare.papers.words import seconds
 from formulations import FAMILIES, Problem, family_optimum, load
 from formulations.problem.arrays import Array
 from formulations.proofs.family import family_bound
@@ -22,6 +23,12 @@ from formulations.proofs.family import family_bound
 TABLE_6, IN_FORCE = "as printed in table 6", "as tables 9 and 10 imply"
 SWARMS = ["pso-1995", "pso-linear", "pso", "mipso", "mipso-printed"]
 CONFIDENCE = 0.95
+RIVALS = {
+    "pso": "PSO with the constants of constriction",
+    "pso-1995": "PSO of 1995",
+    "mipso-printed": "MIPSO with eq. 15 and 16 as they are printed",
+}
+"""What MIPSO is compared with in words, by swarm."""
 
 
 def _paper() -> Paper:
@@ -109,7 +116,9 @@ def accelerations() -> dict[str, float]:
     return found
 
 
-def repeat(limit: str, swarm: str, seeds: range) -> list[JointOneRun]:
+def repeat(
+    limit: str, swarm: str, seeds: range, box: tuple[float, float] | None = None
+) -> list[JointOneRun]:
     """Run one swarm under one reading of the limits, by the protocol of Table 8.
 
     A candidate that breaks a limit is out. The budget is the evaluations of 50 iterations and of the
@@ -123,6 +132,8 @@ def repeat(limit: str, swarm: str, seeds: range) -> list[JointOneRun]:
         A name of ``ALGORITHMS``.
     seeds : range
         One run for each seed.
+    box : tuple of float, optional [s]
+        Another reading of the search box: least and greatest duration of each segment.
 
     Returns
     -------
@@ -133,7 +144,7 @@ def repeat(limit: str, swarm: str, seeds: range) -> list[JointOneRun]:
     for seed in seeds:
         run = Run(f"sr4c joint 1 {limit}", "shared", swarm, seed,
                   POPULATION * (ITERATIONS + 1), POPULATION)  # fmt: skip
-        row = grade(run, problem, None, "none").row
+        row = grade(run, problem, None, "none", box).row
         rows.append(JointOneRun(limit, swarm, seed, row.seconds, row.status))
     return rows
 
@@ -219,3 +230,25 @@ def statistics(times: Array) -> dict[str, Any]:
         "best": float(solved.min()) if n else None,
         "worst": float(solved.max()) if n else None,
     }
+
+
+def cells(entry: dict[str, Any]) -> list[str]:
+    """Write statistics as the cells of a table.
+
+    Parameters
+    ----------
+    entry : dict
+        Of ``statistics``.
+
+    Returns
+    -------
+    list of str
+        Runs, mean, interval, deviation, best, worst.
+    """
+    runs = f"{entry['runs']}" + (f", {entry['unsolved']} unsolved" if entry["unsolved"] else "")
+    interval = entry["interval"]
+    shown = "none" if interval is None else f"{interval[0]:.4f} to {interval[1]:.4f}"
+    mean, deviation, best, worst = (
+        seconds(entry[name]) for name in ("mean", "deviation", "best", "worst")
+    )
+    return [runs, mean, shown, deviation, best, worst]

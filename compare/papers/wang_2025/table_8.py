@@ -12,34 +12,34 @@ from typing import Any
 import matplotlib.pyplot as plt
 import numpy as np
 from matplotlib.figure import Figure
+from scipy import stats
 
 from compare.audit.motion.minima import impossible
 from compare.papers.item import Item, Shown, Table
-from compare.papers.verdicts import AT_A_LIMIT, same_gain
+from compare.papers.verdicts import AT_A_LIMIT, agrees, same_gain
 from compare.papers.wang_2025.joint_1 import (
     FEW,
     IN_FORCE,
     LIMITS,
     PRINTED,
+    RIVALS,
     SWARMS,
     TABLE_6,
     JointOneRun,
     accelerations,
+    cells,
     joint_1,
     repeat,
     summarise,
 )
 from compare.papers.wang_2025.paper import ALONE, SWARM, paper
+from compare.papers.wang_2025.table_8_boxes import box_remarks, box_table, make_boxes
 from compare.papers.words import above, listed, seconds
 from compare.report.style import BLACK, BLUE, GREY, ORANGE, VERMILION, styled
 from compare.screen import table
 
 RUNS = {False: 60, True: 1000}
-_RIVALS = {
-    "pso": "PSO with the constants of constriction",
-    "pso-1995": "PSO of 1995",
-    "mipso-printed": "MIPSO with eq. 15 and 16 as they are printed",
-}
+ALPHA = 0.05  # significance of a difference in scatter
 
 
 @styled
@@ -105,9 +105,9 @@ def as_text(summary: dict[str, Any]) -> str:
     for limit, facts in summary.items():
         lines = []
         for name, entry in facts["printed"].items():
-            lines.append([f"{name}, printed", *_cells(entry), str(facts["printed_below_bound"][name])])
+            lines.append([f"{name}, printed", *cells(entry), str(facts["printed_below_bound"][name])])
         for swarm, entry in facts["swarms"].items():
-            lines += [[swarm, *_cells(entry[which]), ""] for which in ("few", "all")]
+            lines += [[swarm, *cells(entry[which]), ""] for which in ("few", "all")]
         header = [
             "swarm",
             "runs",
@@ -128,24 +128,12 @@ def as_text(summary: dict[str, Any]) -> str:
     return "\n\n".join(parts)
 
 
-def _cells(entry: dict[str, Any]) -> list[str]:
-    """Runs, mean, interval, deviation, best, worst."""
-    runs = f"{entry['runs']}" + (f", {entry['unsolved']} unsolved" if entry["unsolved"] else "")
-    interval = entry["interval"]
-    shown = "none" if interval is None else f"{interval[0]:.4f} to {interval[1]:.4f}"
-    mean, deviation, best, worst = (
-        seconds(entry[name]) for name in ("mean", "deviation", "best", "worst")
-    )
-    return [runs, mean, shown, deviation, best, worst]
-
-
 def make_table_8(full: bool) -> dict[str, Any]:
     """Run every swarm under both readings of the limits, and prove the bounds."""
     runs = range(RUNS[full])
     rows = [r for limit in LIMITS for swarm in SWARMS
             for r in repeat(limit, swarm, runs)]  # fmt: skip
-    force = joint_1(IN_FORCE)
-    halves = paper().halves_of(0)
+    force, halves = joint_1(IN_FORCE), paper().halves_of(0)
     proved = {
         name: sum(impossible(force, halves, t.value.high) for t in paper().totals if t.by == name)
         for name in PRINTED
@@ -155,6 +143,8 @@ def make_table_8(full: bool) -> dict[str, Any]:
         "impossible": proved,
         "rows": [list(astuple(row)) for row in rows],
         "summary": summarise(rows),
+        "boxes": make_boxes(range((len(runs) + 1) // 2)),
+        "scatter": {limit: _same_scatter(rows, limit) for limit in LIMITS},
         "accelerations": accelerations(),
     }
 
@@ -186,12 +176,12 @@ def show_table_8(data: dict[str, Any]) -> Shown:
         groups = {f"{name}, printed": entry for name, entry in facts["printed"].items()}
         groups |= {name: entry["all"] for name, entry in facts["swarms"].items()}
         for name, e in groups.items():
-            runs, *cells = _cells(e)
+            runs, *described = cells(e)
             limit = f"{facts['acceleration']:.0f}"
-            lines.append([name, limit, runs, *cells, f"{facts['bound']:.6f}"])
+            lines.append([name, limit, runs, *described, f"{facts['bound']:.6f}"])
     second = Table(header, lines, "Every run; the printed runs against either limit.", range(1, 9))
-    remarks = _remarks_8(data, printed_means)
-    return Shown([first, second, table8_figure(rows, found)], remarks)
+    remarks = [*_remarks_8(data, printed_means), *box_remarks(data, printed_means)]
+    return Shown([first, second, box_table(data), table8_figure(rows, found)], remarks)
 
 
 def _remarks_8(data: dict[str, Any], printed_means: dict[str, float]) -> list[str]:
@@ -228,12 +218,42 @@ def _remarks_8(data: dict[str, Any], printed_means: dict[str, float]) -> list[st
             f"{printed_means['PSO'] - printed_means['MIPSO']:.4f} s. Mean of {data['runs']} reproduced runs: "
             + "; ".join(
                 f"{means[swarm] - means[SWARM]:+.4f} s over {name}"
-                for swarm, name in _RIVALS.items()
+                for swarm, name in RIVALS.items()
                 if means[swarm] is not None
             )
             + "."
         )
+    remarks.append(_stability(data["summary"], data["scatter"]))
     return remarks
+
+
+def _same_scatter(rows: list[JointOneRun], limit: str) -> float:
+    """The p value that MIPSO and PSO scatter alike (Brown and Forsythe)."""
+    groups = [
+        [r.seconds for r in rows if (r.limit, r.swarm) == (limit, swarm) and r.seconds is not None]
+        for swarm in (SWARM, "pso")
+    ]
+    p = stats.levene(*groups, center="median").pvalue if min(map(len, groups)) > 1 else np.nan
+    return float(p) if np.isfinite(p) else 1.0
+
+
+def _stability(summary: dict[str, Any], scatter: dict[str, float]) -> str:
+    """Whether MIPSO scatters less than PSO, as the paper says."""
+    printed = [summary[IN_FORCE]["printed"][name]["deviation"] for name in ("MIPSO", "PSO")]
+    text = (
+        f"Sec. 4.2.2 calls MIPSO the more stable one: its printed runs scatter by {printed[0]:.4f} s, those "
+        f"of PSO by {printed[1]:.4f} s (standard deviation)."
+    )
+    for limit in (IN_FORCE, TABLE_6):
+        facts, p = summary[limit], scatter[limit]
+        mine, other = (facts["swarms"][swarm]["all"]["deviation"] for swarm in (SWARM, "pso"))
+        if mine is not None and other is not None:
+            outcome = agrees(mine < other) if p < ALPHA else "which shows no difference"
+            text += (
+                f" Under {facts['acceleration']:.0f} deg/s² the reproduced runs scatter by {mine:.4f} s and "
+                f"{other:.4f} s (Brown-Forsythe test, p = {p:.2g}), {outcome}."
+            )
+    return text
 
 
 def _impossible(counts: dict[str, int], acceleration: float) -> str:
@@ -252,6 +272,8 @@ TABLE_8 = Item(
     "ten runs of PSO, IPSO and MIPSO on joint 1",
     make_table_8,
     show_table_8,
-    ALONE + "Two limits of acceleration are read: Table 6's, and the one that Tables 9 and 10 imply.",
+    ALONE
+    + "Two limits of acceleration are read: Table 6's, and the one that Tables 9 and 10 imply; and three "
+    "search boxes.",
     cost=30.0,
 )
