@@ -85,6 +85,7 @@ FORMAT: dict[str, Any] = {
     "claim": [{"where": str, "says": str, "rule": str, "of": list, "equals": NUMBER}],
     "point": [{"where": str, "waypoint": int, "length": str, "position": list, "rpy": list}],
     "variant": [{"name": str, "waypoint": int, "joint": int, "value": NUMBER}],
+    "left_out": [{"where": str, "what": str, "why": str}],
     "settings": SETTINGS,
 }
 

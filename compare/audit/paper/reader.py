@@ -14,6 +14,7 @@ from compare.audit.paper.records import (
     RULES,
     UNITS,
     ArithmeticClaim,
+    LeftOut,
     Paper,
     Point,
     PrintedTimes,
@@ -106,6 +107,7 @@ def _paper(data: dict[str, Any], name: str) -> Paper:
         claims=tuple(_claim(t) for t in data.get("claim", [])),
         points=tuple(_point(t, count) for t in data.get("point", [])),
         settings=data.get("settings", {}),
+        left_out=tuple(_left_out(t) for t in data.get("left_out", [])),
     )
     rows: list[PrintedTimes] = []
     totals: list[Total] = []
@@ -229,6 +231,11 @@ def _point(table: dict[str, Any], count: int) -> Point:
     rpy = row(f"point: {where}: rpy", table["rpy"], 3) if "rpy" in table else None
     position = row(f"point: {where}: position", table["position"], 3)
     return Point(where, table["waypoint"] - 1, position, rpy, metre)
+
+
+def _left_out(table: dict[str, Any]) -> LeftOut:
+    where, what, why = (" ".join(table[key].split()) for key in ("where", "what", "why"))
+    return LeftOut(where, what, why)
 
 
 def _limits(paper: Paper, table: dict[str, Any]) -> str | None:

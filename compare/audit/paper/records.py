@@ -83,6 +83,15 @@ class Point:
 
 
 @dataclass(frozen=True)
+class LeftOut:
+    """A table, figure or equation that the chapter does not make again; both in words for its reader."""
+
+    where: str
+    what: str
+    why: str
+
+
+@dataclass(frozen=True)
 class Paper:
     """Everything of a paper that can be checked.
 
@@ -102,6 +111,8 @@ class Paper:
         Time vectors, totals without one, claimed arithmetic, Cartesian waypoints.
     settings : dict
         What the tables and figures need beside the audit, by name (``keys.SETTINGS``).
+    left_out : tuple of LeftOut
+        What the chapter does not make again.
     """
 
     name: str
@@ -121,6 +132,7 @@ class Paper:
     claims: tuple[ArithmeticClaim, ...]
     points: tuple[Point, ...]
     settings: dict[str, dict[str, Any]] = field(default_factory=dict)
+    left_out: tuple[LeftOut, ...] = ()
 
     @property
     def angle(self) -> float:

@@ -2,14 +2,18 @@
 
 from __future__ import annotations
 
+import html
 import json
 import os
+import re
+import tomllib
 from pathlib import Path
 from typing import Any
 
 import pytest
 
 from compare.__main__ import main
+from compare.audit.paper import published_text
 from compare.papers import ITEMS, page, shelf
 from compare.papers.item import Item, Shown, Table
 
@@ -78,6 +82,17 @@ def test_failing_items_have_a_status_and_cost_no_other_item(
     assert shelf.finished(tmp_path, "sr4c", items[0], False)
     assert not shelf.finished(tmp_path, "sr4c", items[0], True)
     assert not shelf.finished(tmp_path, "sr4c", items[1], False)
+
+
+def test_each_chapter_ends_with_what_its_paper_file_says_was_left_out(tmp_path: Path) -> None:
+    for paper in ITEMS:
+        told = tomllib.loads(published_text(paper)).get("left_out", [])
+        page.render(str(tmp_path), paper, ())
+        text = html.unescape((tmp_path / "papers" / f"{paper}.html").read_text("utf-8"))
+        cells = [cell for row in told for cell in (row["where"], row["what"], row["why"])]
+        assert re.findall(r"<td>(.*?)</td>", text) == cells
+        assert ("What was left out" in text) == bool(told)
+    assert tomllib.loads(published_text("z1"))["left_out"]
 
 
 def test_an_item_that_cannot_be_shown_costs_no_other_item(tmp_path: Path) -> None:
