@@ -6,6 +6,7 @@ import zlib
 from dataclasses import dataclass
 
 import numpy as np
+from numpy.typing import ArrayLike
 
 from compare.benchmark.coordinates import as_printed, seen_in
 from compare.benchmark.objective import CODINGS, Objective, search_box
@@ -100,7 +101,11 @@ class Graded:
 
 
 def grade(
-    run: Run, problem: Problem, bound: float | None, proof: str = BoundProof.local_optimum
+    run: Run,
+    problem: Problem,
+    bound: float | None,
+    proof: str = BoundProof.local_optimum,
+    start: ArrayLike | None = None,
 ) -> Graded:
     """Run a swarm and judge its best vector by the independent check.
 
@@ -113,6 +118,9 @@ def grade(
         What the gap is measured against; None: the row has no gap.
     proof : BoundProof or its text
         What stands behind the bound.
+    start : array_like, shape (m, n_segments), optional
+        Vectors to start from, as `metaheuristics.minimise` takes them, in the box and in coordinates as
+        printed. The note of the row tells it from a run without them.
 
     Returns
     -------
@@ -135,6 +143,7 @@ def grade(
             *seen_in(run.coordinates, objective, lo, hi),
             budget=budget,
             seed=_seed(run, joint),
+            start=start,
             **parameters_of(swarm, run.population, run.constants),
         )
         for joint, objective, budget in zip(
@@ -155,6 +164,8 @@ def grade(
     missed = motion.status is RowStatus.ok and run.coding == "stretched" and (gap or 0.0) > REACHED
     if missed and swarm.shortfall:
         note = swarm.shortfall
+    if start is not None:
+        note = "; ".join(filter(None, [f"started from {len(np.asarray(start))} given vectors", note]))
     row = Row(
         case=run.case,
         family=problem.family,

@@ -17,7 +17,15 @@ from formulations.motion.verdict import QUANTITIES
 from formulations.problem.arrays import Array
 
 
-def trials(problem: Problem, swarm: str, budget: Budget, runs: int) -> list[Graded]:
+def trials(
+    problem: Problem,
+    swarm: str,
+    budget: Budget,
+    runs: int,
+    *,
+    starts: Sequence[ArrayLike] | None = None,
+    **reading: float,
+) -> list[Graded]:
     """Run a swarm as the papers do: an infeasible candidate has the worst fitness.
 
     Parameters
@@ -30,16 +38,22 @@ def trials(problem: Problem, swarm: str, budget: Budget, runs: int) -> list[Grad
         Population and iterations.
     runs : int
         Number of runs, with seeds 0, 1, ...
+    starts : sequence of array_like, shapes (m, n_segments) [s], optional
+        Vectors from which each run starts.
+    **reading : number or bool
+        Parameters of the swarm in place of its defaults.
 
     Returns
     -------
     list of Graded
         Each is judged by the independent check.
     """
-    size = budget.evaluations, budget.population
+    size, constants = (budget.evaluations, budget.population), tuple(reading.items())
+    asked = [
+        Run(problem.name, "shared", swarm, seed, *size, constants=constants) for seed in range(runs)
+    ]
     return [
-        grade(Run(problem.name, "shared", swarm, seed, *size), problem, None, "none")
-        for seed in range(runs)
+        grade(run, problem, None, "none", None if starts is None else starts[run.seed]) for run in asked
     ]
 
 

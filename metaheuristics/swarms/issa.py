@@ -70,7 +70,7 @@ def issa(
     Array, shape (m, dim)
         Points to be evaluated.
     """
-    blend = Blend(task, Flock(task.sample(population)), scouts, (p, c, a), window, threshold)
+    blend = Blend(task, Flock(task.first(population)), scouts, (p, c, a), window, threshold)
     combine = blend.blended if blended else blend.chosen
     yield from forage(task, blend.flock, producers, scouts, safety, combine, blend.weigh)
 

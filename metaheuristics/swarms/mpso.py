@@ -52,7 +52,7 @@ def mpso(
         c = linear_factor(k, c_start, c_end)
         return linear_inertia(k, w_max, w_min), c, c  # Li 2022, eq. 14
 
-    yield from fly(task, task.sample(population), factors)
+    yield from fly(task, task.first(population), factors)
 
 
 def linear_factor(k: float, start: float = 0.05, end: float = 0.02) -> float:
