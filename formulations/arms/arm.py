@@ -10,6 +10,7 @@ from typing import Any
 
 import numpy as np
 
+from formulations.arms.dh_table import DHTable
 from formulations.arms.kinematics import Chain
 from formulations.problem.arrays import Array
 from formulations.problem.errors import InputError
@@ -21,8 +22,6 @@ ARMS: tuple[str, ...] = tuple(
         if entry.name.endswith(".toml")
     )
 )
-
-METRES = {"m": 1.0, "mm": 1e-3}
 
 
 @dataclass(frozen=True)
@@ -85,18 +84,21 @@ def load_arm(name: str) -> Arm:
         title=data["title"],
         source=data["source"],
         notes=data["notes"].strip(),
-        chain=_chain(resolved),
-        printed=_chain(data["printed"]),
+        chain=_table(resolved).chain(),
+        printed=_table(data["printed"]).chain(),
         position=np.deg2rad(np.array(resolved.get("position", unlimited), dtype=np.float64)),
     )
 
 
-def _chain(table: dict[str, Any]) -> Chain:
-    dof, metre = len(table["d"]), METRES[table["length"]]
-    return Chain(
-        d=np.array(table["d"], dtype=np.float64) * metre,
-        a=np.array(table["a"], dtype=np.float64) * metre,
-        alpha=np.deg2rad(np.array(table["alpha"], dtype=np.float64)),
-        offset=np.deg2rad(np.array(table.get("offset", [0.0] * dof), dtype=np.float64)),
+def _table(table: dict[str, Any]) -> DHTable:
+    dof = len(table["d"])
+    return DHTable(
+        d=np.array(table["d"], dtype=np.float64),
+        a=np.array(table["a"], dtype=np.float64),
+        alpha=np.array(table["alpha"], dtype=np.float64),
+        offset=np.array(table.get("offset", [0.0] * dof), dtype=np.float64),
         sign=np.array(table.get("sign", [1.0] * dof), dtype=np.float64),
+        form=table.get("form", "standard"),
+        length=table["length"],
+        angle="deg",
     )

@@ -169,7 +169,8 @@ def _closed_forms(arm: Arm, pose: Array) -> list[Array]:
     """Return EAIK's solutions in joint coordinates, and its least-squares ones that nearly fit."""
     chain = arm.chain
     solver = _solver(arm.name, *(tuple(row.tolist()) for row in (chain.alpha, chain.a, chain.d)))
-    thetas = np.array(solver.IK(pose).Q, dtype=np.float64).reshape(-1, arm.dof)
+    asked = np.linalg.solve(chain.base, pose)
+    thetas = np.array(solver.IK(asked).Q, dtype=np.float64).reshape(-1, arm.dof)
     joints = _wrapped(chain.sign * (thetas - chain.offset))
     return [q for q in joints if np.abs(error_of(pose, chain.forward(q))).max() < _LOOSE]
 

@@ -1,12 +1,19 @@
 """Forward kinematics of a Denavit-Hartenberg chain (Wang 2025, eq. 1-2; Li 2022, eq. 1), and poses.
 
-Standard convention: T = T1 T2 ... Tn, Ti = Rz(theta_i) Tz(d_i) Tx(a_i) Rx(alpha_i),
-theta_i = sign_i q_i + offset_i.
+Standard form: T = T1 T2 ... Tn, Ti = Rz(theta_i) Tz(d_i) Tx(a_i) Rx(alpha_i), theta_i = sign_i q_i + offset_i.
+Modified form (Craig): Ti = Rx(alpha_{i-1}) Tx(a_{i-1}) Rz(theta_i) Tz(d_i); row i of its table holds alpha_{i-1}
+and a_{i-1}. Its factors in other brackets are a standard chain on a base: Rx(alpha_0) Tx(a_0), then links with
+alpha_i and a_i, the last of them without any (``Chain.modified``).
+
+References
+----------
+Denavit, Hartenberg: A kinematic notation for lower-pair mechanisms based on matrices, J. Appl. Mech. 22 (1955).
+Craig: Introduction to Robotics: Mechanics and Control, sec. 3.5-3.6.
 """
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 
 import numpy as np
 from numpy.typing import ArrayLike
@@ -16,7 +23,7 @@ from formulations.problem.arrays import Array
 
 @dataclass(frozen=True)
 class Chain:
-    """A table of Denavit-Hartenberg parameters.
+    """A chain of revolute joints: Denavit-Hartenberg parameters of the standard form, on a base.
 
     Attributes
     ----------
@@ -26,6 +33,8 @@ class Chain:
         Link twists, and the DH angles at joint position 0 [rad].
     sign : Array, shape (dof,)
         +1 or -1, the sense of each joint.
+    base : Array, shape (4, 4)
+        Homogeneous transform in front of the first joint [m]; the identity but for tables of the modified form.
     """
 
     d: Array
@@ -33,6 +42,27 @@ class Chain:
     alpha: Array
     offset: Array
     sign: Array
+    base: Array = field(default_factory=lambda: np.eye(4))
+
+    @classmethod
+    def modified(cls, d: Array, a: Array, alpha: Array, offset: Array, sign: Array) -> Chain:
+        """Make a chain of a table of the modified form (Craig).
+
+        Parameters
+        ----------
+        d, offset, sign : Array, shape (dof,)
+            As for a chain.
+        a, alpha : Array, shape (dof,)
+            a_{i-1} [m] and alpha_{i-1} [rad] of joint i, as the rows of such a table hold them.
+
+        Returns
+        -------
+        Chain
+            Its tool is the frame of the last joint.
+        """
+        c, s = np.cos(alpha[0]), np.sin(alpha[0])
+        base = np.array([[1, 0, 0, a[0]], [0, c, -s, 0], [0, s, c, 0], [0, 0, 0, 1]])
+        return cls(d, np.append(a[1:], 0.0), np.append(alpha[1:], 0.0), offset, sign, base)
 
     def theta(self, joints: ArrayLike) -> Array:
         """Convert joint positions to DH angles.
@@ -50,7 +80,7 @@ class Chain:
         return np.asarray(self.sign * np.asarray(joints, dtype=np.float64) + self.offset)
 
     def frames(self, joints: ArrayLike) -> Array:
-        """Compute the base frame and the frame at the end of each link.
+        """Compute the frame of the base and the frame at the end of each link.
 
         Parameters
         ----------
@@ -75,7 +105,7 @@ class Chain:
         for i, row in enumerate(rows):
             for j, value in enumerate(row):
                 link[..., i, j] = value
-        frames = [np.broadcast_to(np.eye(4), link[..., 0, :, :].shape)]
+        frames = [np.broadcast_to(self.base, link[..., 0, :, :].shape)]
         for i in range(theta.shape[-1]):
             frames.append(frames[-1] @ link[..., i, :, :])
         return np.stack(frames, axis=-3)

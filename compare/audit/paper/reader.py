@@ -22,7 +22,7 @@ from compare.audit.paper.records import (
 )
 from formulations import FAMILIES, InputError
 from formulations.arms import ARMS, load_arm
-from formulations.arms.arm import METRES
+from formulations.arms.dh_table import METRES
 from formulations.motion.verdict import QUANTITIES
 from formulations.problem.arrays import Array
 from formulations.problem.toml_file.toml_text import parse_toml

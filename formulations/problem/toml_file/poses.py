@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 from formulations.arms import joints_of, load_arm, pose_of
-from formulations.arms.arm import METRES
+from formulations.arms.dh_table import METRES
 from formulations.problem.arrays import Array
 from formulations.problem.errors import InputError
 from formulations.problem.joint_words import UNITS

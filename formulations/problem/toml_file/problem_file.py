@@ -8,7 +8,7 @@ from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
 from formulations.arms import Arm, load_arm
-from formulations.arms.arm import METRES
+from formulations.arms.dh_table import METRES
 from formulations.families import FAMILIES
 from formulations.problem.arrays import Array
 from formulations.problem.errors import InputError
