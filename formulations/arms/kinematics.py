@@ -1,7 +1,8 @@
 """Forward kinematics of a Denavit-Hartenberg chain (Wang 2025, eq. 1-2; Li 2022, eq. 1), and poses.
 
-Standard form: T = T1 T2 ... Tn, Ti = Rz(theta_i) Tz(d_i) Tx(a_i) Rx(alpha_i), theta_i = sign_i q_i + offset_i.
-Modified form (Craig): Ti = Rx(alpha_{i-1}) Tx(a_{i-1}) Rz(theta_i) Tz(d_i); row i of its table holds alpha_{i-1}
+Standard form: T = T1 T2 ... Tn, Ti = Rz(theta_i) Tz(d_i) Tx(a_i) Rx(alpha_i),
+theta_i = sign_i q_i + offset_i.
+Modified form (Craig): Ti = Rx(alpha_{i-1}) Tx(a_{i-1}) Rz(theta_i) Tz(d_i); row i of its table has alpha_{i-1}
 and a_{i-1}. Its factors in other brackets are a standard chain on a base: Rx(alpha_0) Tx(a_0), then links with
 alpha_i and a_i, the last of them without any (``Chain.modified``).
 
