@@ -12,7 +12,7 @@ from compare.papers.li_2022 import table_3 as li_table_3
 from compare.papers.lu_2024 import figure_1, figures_5_8
 from compare.papers.measure import judged
 from compare.papers.wang_2025 import figures_4_5, joint_1, table_8, table_9
-from compare.papers.zhang_2025 import figures_6_9, table_3, table_4
+from compare.papers.zhang_2025 import figures_6_9, layers, table_3, table_4
 from compare.papers.zhou_2025 import figures_5_7, table_2, tables_4_6
 from formulations import load
 
@@ -249,12 +249,43 @@ def test_zhang_table_3() -> None:
     data = table_3.make_angles(False)
     told = table_3.show_angles(data).remarks
     assert told[0].startswith("Reproduced by another arm than the printed one")
-    assert "a misprint" in told[2]
+    assert "365 to 757 mm in the standard form and by 354 to 843 mm in the modified form" in told[0]
+    assert told[1].endswith("no reading of Table 1 is this arm.")
+    assert "a misprint" in told[3]
     for point in data["points"]:
-        point |= {"miss": 0.3, "miss_as_printed": 0.3}
+        point |= {"miss": 0.3}
     told = table_3.show_angles(data | {"text_miss": 0.1}).remarks
     assert told[0].startswith("Not reproduced")
-    assert "a misprint" not in told[2]
+    assert "a misprint" not in told[3]
+    data = table_3.make_angles(False)
+    data["forms"]["modified"] = [0.1] * 4
+    told = table_3.show_angles(data | {"any_offset": {"standard": 182.0, "modified": 0.1}}).remarks
+    assert told[0].startswith("Reproduced by the arm as printed")
+    assert told[1].endswith("the modified form may be the arm's.")
+
+
+def test_zhang_section_2_3() -> None:
+    def readings(longest: list[float | None]) -> dict[str, Any]:
+        by_seed = {"longest": longest, "all": [3.6] * 8, "slowed": [3.6] * 8, "afresh": [3.6] * 8,
+                   "afresh, all evaluations": [3.5] * 8}  # fmt: skip
+        found = {
+            key: {"by_seed": times, "median": times[0], "evaluations": 10} for key, times in by_seed.items()
+        }
+        return {"readings": found, "starts": [{"keeps": False, "stretch": 1.01}] * 8}
+
+    told = layers.layers_remarks(readings([3.55] * 8), 3.5)
+    assert "lower on 8 of 8 seeds, more often" in told[0]
+    assert "each joint's own it ends lower on 4 of 8 seeds, not more often beyond chance" in told[0]
+    assert "keep the limit on 0 of 8 seeds" in told[1]
+    assert "is infeasible" in told[1]
+    assert told[2].endswith("on 8 of 8 seeds: more often.")
+    told = layers.layers_remarks(readings([3.55, *[3.7] * 6, None]), 3.5)
+    assert "lower on 1 of 8 seeds, less often" in told[0]
+    told = layers.layers_remarks(
+        readings([3.45] * 8) | {"starts": [{"keeps": True, "stretch": 0.99}] * 8}, 3.4
+    )
+    assert "infeasible" not in told[1]
+    assert told[2].endswith("on 0 of 8 seeds: less often.")
 
 
 def test_zhang_table_4() -> None:
