@@ -105,6 +105,7 @@ def grade(
     problem: Problem,
     bound: float | None,
     proof: str = BoundProof.local_optimum,
+    box: tuple[float, float] | None = None,
     start: ArrayLike | None = None,
 ) -> Graded:
     """Run a swarm and judge its best vector by the independent check.
@@ -118,6 +119,8 @@ def grade(
         What the gap is measured against; None: the row has no gap.
     proof : BoundProof or its text
         What stands behind the bound.
+    box : tuple of float, optional [s]
+        Least and greatest duration that the swarm may try, where a paper is read so (``search_box``).
     start : array_like, shape (m, n_segments), optional
         Vectors to start from, as `metaheuristics.minimise` takes them, in the box and in coordinates as
         printed. The note of the row tells it from a run without them.
@@ -133,7 +136,7 @@ def grade(
     else:
         joints = [-1]
         objectives = [Objective(problem, stretch=run.coding == "stretched")]
-    lo, hi = search_box(problem)
+    lo, hi = search_box(problem, box)
     swarm = algorithm(run.swarm)
     made_by = provenance_of(run.swarm, problem, run.population, run.time_limit, run.constants)
     search = swarm.search(made_by.time_limit)

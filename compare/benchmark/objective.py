@@ -28,7 +28,7 @@ CODINGS: dict[str, str] = {
 _SHORTEST, _LONGEST = 1e-3, 3.0  # times the shortest feasible duration of equally long segments
 
 
-def search_box(problem: Problem) -> tuple[Array, Array]:
+def search_box(problem: Problem, seconds: tuple[float, float] | None = None) -> tuple[Array, Array]:
     """Return the least and the greatest duration of each segment that a swarm may try.
 
     Both are multiples of the shortest feasible duration of equally long segments: 0.001 and 3 times.
@@ -38,12 +38,16 @@ def search_box(problem: Problem) -> tuple[Array, Array]:
     Parameters
     ----------
     problem : Problem
+    seconds : tuple of float, optional [s]
+        Least and greatest duration of every segment, in place of these multiples.
 
     Returns
     -------
     lo, hi : Array, shape (n_segments,) [s]
     """
     n = problem.n_segments
+    if seconds is not None:
+        return np.full(n, seconds[0]), np.full(n, seconds[1])
     unit = float(FAMILIES[problem.family].stretch(problem, np.ones((1, n)))[0])
     return np.full(n, _SHORTEST * unit), np.full(n, _LONGEST * unit)
 

@@ -22,6 +22,7 @@ def trials(
     swarm: str,
     budget: Budget,
     runs: int,
+    box: tuple[float, float] | None = None,
     *,
     starts: Sequence[ArrayLike] | None = None,
     **reading: float,
@@ -38,6 +39,8 @@ def trials(
         Population and iterations.
     runs : int
         Number of runs, with seeds 0, 1, ...
+    box : tuple of float, optional [s]
+        Another reading of the box that the swarm searches: least and greatest duration of each segment.
     starts : sequence of array_like, shapes (m, n_segments) [s], optional
         Vectors from which each run starts.
     **reading : number or bool
@@ -53,7 +56,8 @@ def trials(
         Run(problem.name, "shared", swarm, seed, *size, constants=constants) for seed in range(runs)
     ]
     return [
-        grade(run, problem, None, "none", None if starts is None else starts[run.seed]) for run in asked
+        grade(run, problem, None, "none", box, None if starts is None else starts[run.seed])
+        for run in asked
     ]
 
 

@@ -11,7 +11,6 @@ from compare.audit.motion.printed_motion import PrintedMotion
 from compare.audit.paper import PrintedTimes, settings, with_limits
 from compare.audit.paper.digits import values
 from compare.benchmark.grade import Graded, durations_of
-from compare.benchmark.objective import Objective
 from compare.papers.item import Item, Shown, Table
 from compare.papers.li_2022.paper import READINGS, SWARMS, budget, certified, paper, rows, whole_optimum
 from compare.papers.measure import judged, summary, trials
@@ -19,44 +18,21 @@ from compare.papers.verdicts import AT_A_LIMIT, BEST, agrees, yes_no
 from compare.papers.words import listed
 from formulations import Problem, load, longest_segment
 from formulations.problem.arrays import Array
-from metaheuristics import ALGORITHMS, minimise
-
-
-def boxed(problem: Problem, seed: int) -> Array:
-    """Search durations by MPSO as printed, in a box from Table 3's least time to the first plan.
-
-    Parameters
-    ----------
-    problem : Problem
-        One joint.
-    seed : int
-        Of the run.
-
-    Returns
-    -------
-    Array, shape (n_segments,) [s]
-        Empty if nothing feasible was found.
-    """
-    low, high = (np.full(problem.n_segments, edge) for edge in settings("bagging")["box"]["seconds"])
-    entry, objective = ALGORITHMS["mpso"], Objective(problem, stretch=False)
-    parameters = entry.parameters | {"population": budget().population}
-    size = budget().evaluations
-    found = minimise(entry.function, objective, low, high, budget=size, seed=seed, **parameters)
-    return np.zeros(0) if found.x is None else found.x
 
 
 def make_table_3(full: bool) -> dict[str, Any]:
     """Judge each joint as printed, repeat it with every reading, and certify its optimum."""
     problem = load("bagging")
     single, whole = rows()
-    runs = 30 if full else 10
+    runs, (least, most) = 30 if full else 10, settings("bagging")["box"]["seconds"]
     joints: list[dict[str, Any]] = []
-    found: dict[str, list[list[Graded]]] = {swarm: [] for swarm in SWARMS}
+    found: dict[str, list[list[Graded]]] = {reading: [] for reading in READINGS}
     for row in single:
         assert row.joint is not None
         one, motion = problem.joint(row.joint), PrintedMotion.of(paper(), row)
         for swarm in SWARMS:
             found[swarm].append(trials(one, swarm, budget(), runs))
+        found["boxed"].append(trials(one, "mpso", budget(), runs, (least, most)))
         joints.append({
             "joint": row.joint + 1,
             "times": [str(time) for time in row.times],
@@ -64,21 +40,9 @@ def make_table_3(full: bool) -> dict[str, Any]:
             "speed": float(motion.implied[0, 0]),
             "own": certified(with_limits(motion.problem, motion.implied)),
             "least": certified(one),
-            "trials": {swarm: summary(found[swarm][-1]) for swarm in SWARMS},
+            "trials": {reading: summary(groups[-1]) for reading, groups in found.items()},
         })  # fmt: skip
-    vectors = {s: [[durations_of(g.row) for g in group] for group in found[s]] for s in SWARMS}
-    vectors["boxed"] = [
-        # unequal seeds: the joints are searched independently
-        [boxed(problem.joint(j["joint"] - 1), 100 * seed + j["joint"]) for seed in range(runs)]
-        for j in joints
-    ]
-    for j, group in zip(joints, vectors["boxed"], strict=True):
-        solved = sorted((v for v in group if v.size), key=lambda v: float(v.sum()))
-        median = solved[(len(solved) - 1) // 2] if solved else None
-        j["trials"]["boxed"] = {
-            "durations": None if median is None else median.tolist(),
-            "median": None if median is None else float(median.sum()),
-        }
+    vectors = {s: [[durations_of(g.row) for g in group] for group in found[s]] for s in found}
     return {
         "runs": runs,
         "limit": float(problem.limits.velocity[0]),

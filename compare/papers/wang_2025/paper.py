@@ -6,6 +6,7 @@ from compare.audit.paper import Paper, load_papers, settings
 from compare.benchmark.protocol import Budget
 
 SWARM = "mipso"
+PRINTED_TIMES, FIRST_PLAN = "printed times", "first plan"
 ALONE = (
     "Joint 1 alone. A candidate that breaks a limit is out. The paper prints neither the search box nor the "
     "constants of PSO. It does not have the equations of IPSO, so IPSO cannot be run. "
@@ -15,6 +16,21 @@ ALONE = (
 def paper() -> Paper:
     """The numbers that the paper prints."""
     return load_papers("wang_2025")[0]
+
+
+def boxes() -> dict[str, tuple[float, float]]:
+    """Other readings of the search box, from the least time of a segment in Tables 9 and 10 [s].
+
+    One ends at the greatest time in these tables, the other, as for Li 2022, at the first plan.
+    """
+    times = [time.value for row in paper().rows for time in row.times]
+    first_plan = max(settings("wang_2025")["first_plan"]["times"])
+    return {PRINTED_TIMES: (min(times), max(times)), FIRST_PLAN: (min(times), float(first_plan))}
+
+
+def in_words(box: tuple[float, float]) -> str:
+    """Write a search box: 0.386 to 2.6606 s a segment."""
+    return f"{box[0]:g} to {box[1]:g} s a segment"
 
 
 def budget() -> Budget:
