@@ -17,7 +17,7 @@ from compare.papers.measure import trials
 from compare.papers.pictures.descent import descent, draw_descent
 from compare.papers.verdicts import Reproduction, same_order, same_times
 from compare.papers.wang_2025.joint_1 import IN_FORCE, LIMITS, PRINTED, TABLE_6, bounds, joint_1
-from compare.papers.wang_2025.paper import ALONE, SWARM, budget
+from compare.papers.wang_2025.paper import ALONE, PRINTED_TIMES, SWARM, boxes, budget, in_words
 from compare.papers.words import above, seconds
 from compare.report.style import BLACK, BLUE, GREEN, GREY, ORANGE, PURPLE, SKY, VERMILION, styled
 
@@ -44,6 +44,11 @@ def make_fig_10(full: bool) -> dict[str, Any]:
         "descents": {swarm: descent([g.traces[0] for g in group], *astuple(budget()))
                      for swarm, group in found.items()},
         "free_mutants": _end(trials(problem, SWARM, more, runs), more),
+        "boxed": {
+            swarm: _end(trials(problem, swarm, budget(), runs, boxes()[PRINTED_TIMES]), budget())
+            for swarm in (SWARM, "pso")
+        },
+        "box": list(boxes()[PRINTED_TIMES]),
         "table_6": _end(trials(stated, SWARM, budget(), runs), budget()),
     }  # fmt: skip
 
@@ -75,6 +80,9 @@ def show_fig_10(data: dict[str, Any]) -> Shown:
         f"reproduced medians end in the order {'; '.join(_SWARMS[s][0] for s in order)}.",
         f"If mutants were not counted, at most 20 % more evaluations, the median of MIPSO would end at "
         f"{seconds(data['free_mutants'])} s instead of {seconds(median[SWARM])} s.",
+        f"In the other reading of the search box, {in_words(*data['box'])}, the medians end "
+        f"at {seconds(data['boxed'][SWARM])} s (MIPSO) and {seconds(data['boxed']['pso'])} s (PSO, "
+        "constriction).",
     ]
     if median[SWARM] is not None and data["table_6"] is not None:
         meant = any(

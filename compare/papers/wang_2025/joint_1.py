@@ -109,7 +109,9 @@ def accelerations() -> dict[str, float]:
     return found
 
 
-def repeat(limit: str, swarm: str, seeds: range) -> list[JointOneRun]:
+def repeat(
+    limit: str, swarm: str, seeds: range, box: tuple[float, float] | None = None
+) -> list[JointOneRun]:
     """Run one swarm under one reading of the limits, by the protocol of Table 8.
 
     A candidate that breaks a limit is out. The budget is the evaluations of 50 iterations and of the
@@ -123,6 +125,8 @@ def repeat(limit: str, swarm: str, seeds: range) -> list[JointOneRun]:
         A name of ``ALGORITHMS``.
     seeds : range
         One run for each seed.
+    box : tuple of float, optional [s]
+        Another reading of the search box: least and greatest duration of each segment.
 
     Returns
     -------
@@ -133,7 +137,7 @@ def repeat(limit: str, swarm: str, seeds: range) -> list[JointOneRun]:
     for seed in seeds:
         run = Run(f"sr4c joint 1 {limit}", "shared", swarm, seed,
                   POPULATION * (ITERATIONS + 1), POPULATION)  # fmt: skip
-        row = grade(run, problem, None, "none").row
+        row = grade(run, problem, None, "none", box).row
         rows.append(JointOneRun(limit, swarm, seed, row.seconds, row.status))
     return rows
 

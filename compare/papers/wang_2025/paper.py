@@ -28,9 +28,9 @@ def boxes() -> dict[str, tuple[float, float]]:
     return {PRINTED_TIMES: (min(times), max(times)), FIRST_PLAN: (min(times), float(first_plan))}
 
 
-def in_words(box: tuple[float, float]) -> str:
+def in_words(low: float, high: float) -> str:
     """Write a search box: 0.386 to 2.6606 s a segment."""
-    return f"{box[0]:g} to {box[1]:g} s a segment"
+    return f"{low:g} to {high:g} s a segment"
 
 
 def budget() -> Budget:

@@ -139,7 +139,7 @@ def _rule_table(data: dict[str, Any]) -> Table:
     caption = (
         f"The longest time of each segment over the joints [s]; MIPSO: median of {data['runs']} seeds. The "
         f"limits that fit: {_accelerations(data)} deg/s², velocity as in Table 6. The other box: "
-        f"{in_words((data['box'][0], data['box'][1]))}."
+        f"{in_words(*data['box'])}."
     )
     return Table(header, lines, caption, range(2, 11))
 
