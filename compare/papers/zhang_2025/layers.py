@@ -11,7 +11,7 @@ from compare.benchmark.objective import search_box
 from compare.benchmark.protocol import Budget
 from compare.papers.item import Table
 from compare.papers.measure import judged, summary, trials
-from compare.papers.verdicts import more_often
+from compare.papers.verdicts import more_often, pairs_won
 from compare.papers.zhang_2025.paper import BUDGET
 from formulations import Problem, longest_segment
 from formulations.problem.arrays import Array
@@ -121,11 +121,8 @@ def layers_table(layers: dict[str, Any], bound: float) -> Table:
 
 def lower(layers: dict[str, Any], reading: str, rival: str = "afresh") -> float:
     """On how many seeds one reading ends lower than another; a tie counts half."""
-    one, other = (
-        np.array([np.inf if s is None else s for s in layers["readings"][key]["by_seed"]])
-        for key in (reading, rival)
-    )
-    return float((one < other).sum() + 0.5 * (one == other).sum())
+    readings = layers["readings"]
+    return pairs_won(readings[reading]["by_seed"], readings[rival]["by_seed"])
 
 
 def layers_remarks(layers: dict[str, Any], bound: float) -> list[str]:

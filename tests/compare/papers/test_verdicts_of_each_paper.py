@@ -13,7 +13,7 @@ from compare.papers.lu_2024 import figure_1, figures_5_8
 from compare.papers.measure import judged
 from compare.papers.wang_2025 import figures_4_5, joint_1, table_8, table_9
 from compare.papers.zhang_2025 import figures_6_9, layers, table_3, table_4
-from compare.papers.zhou_2025 import figures_5_7, table_2, tables_4_6
+from compare.papers.zhou_2025 import figures_5_7, groups, table_2, tables_4_6
 from formulations import load
 
 # --- Wang 2025 ------------------------------------------------------------------------------------
@@ -122,6 +122,16 @@ def test_li_table_3() -> None:
     assert "unlike what the paper says" in told[2]
 
 
+def test_li_sec_3_step_1() -> None:
+    def joint(six: list[float | None], longer: list[float | None]) -> dict[str, Any]:
+        times = {"mpso": [2.0, 2.0, 2.0, None], "six": six, "six, all iterations": longer}
+        return {"trials": {reading: {"by_seed": found} for reading, found in times.items()}}
+
+    told = li_table_3._populations({"joints": [joint([1.0] * 4, [3.0, 3.0, None, None])] * 3})
+    assert "as many evaluations in 12 of 12 pairs of runs, more often (12 of 12 found" in told
+    assert "as many iterations in 1.5 of 12 pairs of runs, less often (6 of 12 found" in told
+
+
 # --- Zhou 2025 ------------------------------------------------------------------------------------
 
 
@@ -155,6 +165,23 @@ def test_zhou_tables_4_to_6() -> None:
     assert "keeps the limits" in told
     assert "is reproduced" in tables_4_6._gain(data)
     assert "explains the times" in tables_4_6._other_readings(data)
+
+
+def test_zhou_sec_4_2_step_1() -> None:
+    def told(two: list[float | None], median: float, impossible: bool) -> str:
+        def reading(times: list[float | None], found: float) -> dict[str, Any]:
+            arm = {"seconds": found}
+            return {"by_seed": [times] * 6, "found": [{"median": found}] * 6, "arm": arm}
+
+        read = {"one": reading([3.0, 3.0, None], 3.0), "two": reading(two, median)}
+        assert len(groups.groups_table(read, [2.9] * 7, [3.0] * 7).rows) == 7
+        return groups.groups_remark(read, [3.0] * 7, [impossible] * 7)
+
+    lower, higher = told([2.0, 2.0, 2.0], 3.0, False), told([4.0, None, None], 5.0, True)
+    assert "lower than with one flock in 18 of 18 pairs of runs, more often" in lower
+    assert lower.endswith("of Table 6 are reproduced.")
+    assert "in 3 of 18 pairs of runs, less often" in higher
+    assert higher.endswith("of Table 6 are not reproduced.")
 
 
 def test_zhou_table_2() -> None:
