@@ -83,9 +83,7 @@ def _run(
         channel.send({"kind": "x"}, x.tobytes())
         return np.frombuffer(channel.receive(MOST)[1])
 
-    result = minimise(
-        algorithm, remote, lo, hi, budget=budget, seed=seed, start=start, **parameters
-    )
+    result = minimise(algorithm, remote, lo, hi, budget=budget, seed=seed, start=start, **parameters)
     channel.send({"kind": "end", "status": result.status.value, "note": result.note})
 
 

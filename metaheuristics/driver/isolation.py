@@ -5,9 +5,9 @@ stay on this side, where the algorithm cannot reach them.  The process (`metaheu
 the driver too, so that every fault of the algorithm has its name; this side checks the points again.
 
 What the process is given: the box, the budget, the seed, the points to start from, the algorithm, its
-parameters, and where modules are found.  Its working directory is an empty temporary folder, its environment a short list of variables,
-its standard streams are closed, and its command line names no file of the comparison.  It runs with the
-rights of the user all the same: see "Isolation" in docs/swarms.md.
+parameters, and where modules are found.  Its working directory is an empty temporary folder, its environment
+a short list of variables, its standard streams are closed, and its command line names no file of the
+comparison.  It runs with the rights of the user all the same: see "Isolation" in docs/swarms.md.
 """
 
 from __future__ import annotations

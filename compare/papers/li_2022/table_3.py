@@ -175,7 +175,9 @@ def _populations(data: dict[str, Any]) -> str:
     """Whether a population per segment ends lower than one population of vectors (sec. 3, step 1)."""
     told = []
     for reading, size in (("six", "evaluations"), ("six, all iterations", "iterations")):
-        pairs = [(j["trials"][reading]["by_seed"], j["trials"]["mpso"]["by_seed"]) for j in data["joints"]]
+        pairs = [
+            (j["trials"][reading]["by_seed"], j["trials"]["mpso"]["by_seed"]) for j in data["joints"]
+        ]
         n, won = sum(len(one) for _, one in pairs), sum(pairs_won(*pair) for pair in pairs)
         solved = [s for six, _ in pairs for s in six if s is not None]
         told.append(
@@ -197,8 +199,8 @@ TABLE_3 = Item(
     "box of 3 equal plans and the standard updates are taken. Other readings: the factors, 0.05 falling to "
     "0.02, times ten; a box from 0.1 s, the least time of the table, to 2 s, the first plan. Step 1 of "
     "sec. 3 draws six populations, one per segment; step 4 takes the i-th particles of all six as one vector, "
-    "which makes them one population of vectors: so it is read. In the other reading each population has its own "
-    "bests and is judged beside the bests of the five others; it has as many evaluations, or as many iterations, "
-    "which takes six times the evaluations. 20 particles, 200 iterations.",
+    "which makes them one population of vectors: so it is read. In the other reading each population has its "
+    "own bests and is judged beside the bests of the five others; it has as many evaluations, or as many "
+    "iterations, which takes six times the evaluations. 20 particles, 200 iterations.",
     cost=30.0,
 )

@@ -28,7 +28,20 @@ READINGS = {
 
 
 def first_layer(problem: Problem, runs: int) -> list[list[Graded]]:
-    """Search each joint alone, with the seeds 0, 1, ...; one list per joint."""
+    """Search each joint alone.
+
+    Parameters
+    ----------
+    problem : Problem
+        The whole arm.
+    runs : int
+        Number of runs, with seeds 0, 1, ...
+
+    Returns
+    -------
+    list of (list of Graded)
+        Runs by joint.
+    """
     return [trials(problem.joint(j), SWARM, BUDGET, runs) for j in range(problem.dof)]
 
 
@@ -84,7 +97,20 @@ def second_layer(problem: Problem, starts: list[Array], reading: str = "longest"
 
 
 def make_layers(problem: Problem, alone: list[list[Graded]]) -> dict[str, Any]:
-    """Compare the readings of the second layer, and judge the longest times that it starts from."""
+    """Compare the readings of the second layer, and judge the longest times that it starts from.
+
+    Parameters
+    ----------
+    problem : Problem
+        The whole arm.
+    alone : list of (list of Graded)
+        Of ``first_layer``.
+
+    Returns
+    -------
+    dict
+        readings: summary, by_seed (times [s]) and evaluations of each; starts: judged, by seed.
+    """
     starts = integrated(problem, alone)
     found = {reading: second_layer(problem, starts, reading) for reading in READINGS}
     first = sum(runs[0].row.evaluations for runs in alone)
@@ -102,7 +128,19 @@ def make_layers(problem: Problem, alone: list[list[Graded]]) -> dict[str, Any]:
 
 
 def layers_table(layers: dict[str, Any], bound: float) -> Table:
-    """Show the readings of the second layer side by side."""
+    """Show the readings of the second layer side by side.
+
+    Parameters
+    ----------
+    layers : dict
+        Of ``make_layers``.
+    bound : float [s]
+        Certified optimum of the whole arm.
+
+    Returns
+    -------
+    Table
+    """
     lines = []
     for reading, found in layers["readings"].items():
         gaps = np.array([s if s is not None else np.inf for s in found["by_seed"]]) / bound - 1.0
@@ -113,8 +151,8 @@ def layers_table(layers: dict[str, Any], bound: float) -> Table:
     header = ["the whole arm's search starts", "evaluations", "median [s]", "gap, 25 %", "median", "75 %",
               "lower than afresh"]  # fmt: skip
     caption = (
-        f"Sec. 2.3: the second layer. Gaps to the certified optimum of {bound:.5f} s; runs of one seed have the "
-        "same random numbers, a tie counts half."
+        f"Sec. 2.3: the second layer. Gaps to the certified optimum of {bound:.5f} s; runs of one seed have "
+        "the same random numbers, a tie counts half."
     )
     return Table(header, lines, caption, range(1, 7))
 
@@ -126,7 +164,20 @@ def lower(layers: dict[str, Any], reading: str, rival: str = "afresh") -> float:
 
 
 def layers_remarks(layers: dict[str, Any], bound: float) -> list[str]:
-    """Say whether the first layer helps the second, and what it costs."""
+    """Say whether the first layer helps the second, and what it costs.
+
+    Parameters
+    ----------
+    layers : dict
+        Of ``make_layers``.
+    bound : float [s]
+        Certified optimum of the whole arm.
+
+    Returns
+    -------
+    list of str
+        Remarks of the page.
+    """
     readings, starts = layers["readings"], layers["starts"]
     n = len(starts)
     gap = {key: found["median"] / bound - 1.0 for key, found in readings.items()}

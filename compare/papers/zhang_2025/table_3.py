@@ -45,16 +45,14 @@ def make_angles(full: bool) -> dict[str, Any]:
 def _forms(waypoints: Array, points: Array) -> dict[str, Any]:
     """Measure what each reading of Table 1 misses, and what it misses at least with any offset of joint 3.
 
-    Table 1 has all axes of joints 4 to 6 meet in the tool, so that the distance of the tool from the crossing of
-    axes 1 and 2 depends on joint 3 alone: no offset or sign of another joint brings it closer to the points.
+    In Table 1 the axes of joints 4 to 6 meet in the tool, so that its distance from the crossing of axes 1
+    and 2 depends on joint 3 alone: no offset or sign of another joint brings it closer to the points.
     """
     printed = load_arm("cobot").printed
     chains = {
         "fitted": load_arm("cobot").chain,
         "standard": printed,
-        "modified": Chain.modified(
-            printed.d, printed.a, printed.alpha, printed.offset, printed.sign
-        ),
+        "modified": Chain.modified(printed.d, printed.a, printed.alpha, printed.offset, printed.sign),
     }
     turns = np.deg2rad(np.arange(0.0, 360.0, 0.1))
     third = np.zeros((2, len(turns), *waypoints.shape))
@@ -147,9 +145,9 @@ def _offsets(least: dict[str, float]) -> str:
     saved = [name for name, miss in least.items() if miss <= _FITS]
     bounds = " and ".join(f"{miss:.0f} mm in the {name} form" for name, miss in least.items())
     return (
-        "Offsets and senses of rotation of the joints are not printed. In Table 1 the distance of the tool from "
-        "the base depends on joint 3 alone. With the best offset and sense of joint 3, and any of the other "
-        f"joints, some point is missed by at least {bounds}: "
+        "Offsets and senses of rotation of the joints are not printed. In Table 1 the distance of the tool "
+        "from the base depends on joint 3 alone. With the best offset and sense of joint 3, and any of the others, "
+        f"some point is missed by at least {bounds}: "
         + (
             f"the {' and the '.join(saved)} form may be the arm's."
             if saved
@@ -164,5 +162,6 @@ TABLE_3 = Item(
     make_angles,
     show_angles,
     "The arm is printed as a PUMA560, which its own numbers contradict; the chain used is the one that fits "
-    "them. Whether Table 1 has the standard or the modified form is not said: both are tested. Only positions are printed: the orientations are those of the printed angles.",
+    "them. Whether Table 1 has the standard or the modified form is not said: both are tested. Only positions "
+    "are printed: the orientations are those of the printed angles.",
 )

@@ -78,7 +78,8 @@ def show_times(data: dict[str, Any]) -> Shown:
     ]
     caption = (
         f"Times of the three segments [s]. Reproduced: improved PSO under {data['limit']:.0f} deg/s for every "
-        f"joint, each joint alone and, last row, the whole arm from their results; median of {data['runs']} runs."
+        f"joint, each joint alone and, last row, the whole arm from their results; median of {data['runs']} "
+        "runs."
     )
     layers, bound = data["layers"], data["least"][6]
     return Shown(
@@ -125,7 +126,8 @@ TABLE_4 = Item(
     "The speed limit of eq. 13 is not printed: 100 deg/s for every joint. Each joint alone and then the whole "
     "arm from the joints' results, as sec. 2.3 has it. How they are put together is open: one particle starts "
     "at the longest time of each segment; the other readings are seven particles, the joints' own times too; "
-    "one particle at longest times that were slowed until they keep the limit; and a fresh start. alpha and beta of eq. 6, open in (0, 1), are 0.5. Budget as printed: "
+    "one particle at longest times that were slowed until they keep the limit; and a fresh "
+    "start. alpha and beta of eq. 6, open in (0, 1), are 0.5. Budget as printed: "
     f"{settings('cobot')['swarm']['population']} particles, {settings('cobot')['swarm']['iterations']} "
     "iterations.",
     cost=14.0,

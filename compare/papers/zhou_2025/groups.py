@@ -1,4 +1,4 @@
-"""Zhou 2025, sec. 4.2, step 1: one flock of both kinds of moves, or a group of sparrows and one of butterflies."""
+"""Zhou 2025, sec. 4.2, step 1: one flock that makes both kinds of moves, or two groups."""
 
 from __future__ import annotations
 
@@ -50,7 +50,21 @@ def make_groups(problem: Problem, one: Sequence[Sequence[Graded]]) -> dict[str, 
 
 
 def groups_table(groups: dict[str, Any], bounds: Sequence[float], printed: Sequence[float]) -> Table:
-    """Show both readings joint by joint: medians, and their gaps to the certified optimum."""
+    """Show both readings joint by joint: medians, and their gaps to the certified optimum.
+
+    Parameters
+    ----------
+    groups : dict
+        Of ``make_groups``.
+    bounds : sequence of float [s]
+        Certified optima of the joints, then of the arm.
+    printed : sequence of float [s]
+        Printed sums, in the same order.
+
+    Returns
+    -------
+    Table
+    """
     lines = []
     for j, bound in enumerate(bounds[:-1]):
         medians = [groups[name]["found"][j]["median"] for name in READINGS]
@@ -70,10 +84,23 @@ def groups_table(groups: dict[str, Any], bounds: Sequence[float], printed: Seque
     return Table(header, lines, caption, range(1, 8))
 
 
-def groups_remark(
-    groups: dict[str, Any], printed: Sequence[float], impossible: Sequence[bool]
-) -> str:
-    """Say whether the other reading of step 1 ends lower, and whether it explains the printed times."""
+def groups_remark(groups: dict[str, Any], printed: Sequence[float], impossible: Sequence[bool]) -> str:
+    """Say whether the other reading of step 1 ends lower, and whether it explains the printed times.
+
+    Parameters
+    ----------
+    groups : dict
+        Of ``make_groups``.
+    printed : sequence of float [s]
+        Printed sums of the joints, then of the arm.
+    impossible : sequence of bool
+        Whether each is proved to be too short for the limits.
+
+    Returns
+    -------
+    str
+        A remark of the page.
+    """
     one, two = ([s for joint in groups[name]["by_seed"] for s in joint] for name in READINGS)
     won, n = pairs_won(two, one), len(one)
     found = [f["median"] for f in groups["two"]["found"]] + [groups["two"]["arm"]["seconds"]]

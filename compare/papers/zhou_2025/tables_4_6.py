@@ -22,9 +22,7 @@ def make_times(full: bool) -> dict[str, Any]:
     paper, problem = as_meant()
     swarms, solved = {}, {}
     for name, swarm in SWARMS.items():
-        solved[name] = [
-            trials(problem.joint(j), swarm, BUDGET, RUNS[full]) for j in range(problem.dof)
-        ]
+        solved[name] = [trials(problem.joint(j), swarm, BUDGET, RUNS[full]) for j in range(problem.dof)]
         found = [summary(runs) for runs in solved[name]]
         rule = longest_segment(problem, [np.array(f["durations"]) for f in found])
         rows = [row for row in paper.rows if row.by == name]
@@ -153,10 +151,10 @@ TABLES_4_6 = Item(
     make_times,
     show_times,
     "Open are the constants of the swarms (taken from their sources; PSO with constriction), the box (up to "
-    "three times the shortest feasible equal times) and what an infeasible candidate costs (it is out). Step 1 of "
-    "sec. 4.2 starts a group of sparrows and one of butterflies, eq. 8-15 move one population: one flock makes "
-    "both kinds of moves. In the other reading each of a generation's moves is made by a sparrow or by a butterfly "
-    "of another group, with the same weights, and both groups know the best of both. Budget "
+    "three times the shortest feasible equal times) and what an infeasible candidate costs (it is out). Step 1 "
+    "of sec. 4.2 starts a group of sparrows and one of butterflies, eq. 8-15 move one population: one flock "
+    "makes both kinds of moves. In the other reading each of a generation's moves is made by a sparrow or by a "
+    "butterfly of another group, with the same weights, and both groups know the best of both. Budget "
     f"as printed: {settings('ur5')['swarm']['population']} individuals, "
     f"{settings('ur5')['swarm']['iterations']} iterations, every evaluation counted. Joint 6 has its sign "
     "restored.",

@@ -43,7 +43,9 @@ def test_no_start_is_an_empty_start(name: str) -> None:
 
 @pytest.mark.parametrize("name", OTHERS)
 def test_an_adapter_that_takes_no_start_says_so_before_anything_is_evaluated(name: str) -> None:
-    pytest.importorskip({"minionpy": "minionpy", "cmaes": "cmaes"}.get(ALGORITHMS[name].libraries[0], "scipy"))
+    pytest.importorskip(
+        {"minionpy": "minionpy", "cmaes": "cmaes"}.get(ALGORITHMS[name].libraries[0], "scipy")
+    )
     f = Recorder(bowl)
     result = run_entry(name, f, start=START)
     assert result.status is Status.ignored_start
