@@ -94,10 +94,37 @@ def seeds_for_effect(a12: float, tests: int = 1, alpha: float = 0.05, power: flo
     """
     if a12 == 0.5:
         return None
-    z = stats.norm.ppf(1 - alpha / (2 * tests)) + stats.norm.ppf(power)
     # N = z^2 / (12 c (1 - c) (p - 1/2)^2) in all, c = 1/2; half of it each
-    noether = ceil(float(z) ** 2 / (6 * (a12 - 0.5) ** 2))
+    noether = ceil(_quantiles(tests, alpha, power) ** 2 / (6 * (a12 - 0.5) ** 2))
     return max(noether, least_seeds(tests, alpha))
+
+
+def least_effect(seeds: int, tests: int = 1, alpha: float = 0.05, power: float = 0.8) -> float | None:
+    """Return the least effect that so many seeds of each swarm show: the inverse of ``seeds_for_effect``.
+
+    Parameters
+    ----------
+    seeds : int
+        Of each swarm.
+    tests : int
+        Number of instances over which Holm corrects.
+    alpha : float
+        Level.
+    power : float
+        Probability that the test finds the effect.
+
+    Returns
+    -------
+    float or None
+        A12 above 1/2; None if Noether's formula asks for more seeds even where each run of one swarm is better.
+    """
+    found = 0.5 + _quantiles(tests, alpha, power) / (6 * seeds) ** 0.5
+    return found if found <= 1.0 and seeds >= least_seeds(tests, alpha) else None
+
+
+def _quantiles(tests: int, alpha: float, power: float) -> float:
+    """Sum of the normal quantiles of level and power."""
+    return float(stats.norm.ppf(1 - alpha / (2 * tests)) + stats.norm.ppf(power))
 
 
 def seeds_needed(

@@ -30,8 +30,7 @@ def ablation(
         Take the paper's protocol: 500 iterations, 30 runs.
     """
     protocol = runs.FULL if full else runs.SHORT
-    runs.cec2017(3, 10)  # says at once what is missing
-    runs.holm([0.5])
+    runs.require_packages()
     study = Study(
         name="ablation",
         row=runs.AblationRun,

@@ -1,15 +1,18 @@
 """Wang 2025 (SIASUN SR4C, MIPSO): every table and figure that can be made again, in the paper's order.
 
 Each module is named by the tables and figures that it makes: Table 8 is ``table_8``. Joint 1, which Tables
-8 and 10 and Figs 10 and 12 to 14 share, stands in ``joint_1``; the printed numbers in ``printed.toml``.
+8 and 10 and Figs 10 and 12 to 14 share, stands in ``joint_1``, the motions of Figs 7 to 9, 11 and 17 to 19 in
+``motions``; the printed numbers in ``printed.toml``.
 """
 
 from __future__ import annotations
 
 from compare.papers.item import Item
 from compare.papers.wang_2025.figure_10 import FIGURE_10
+from compare.papers.wang_2025.figure_11 import FIGURE_11
 from compare.papers.wang_2025.figures_4_5 import FIGURE_4, FIGURE_5
-from compare.papers.wang_2025.figures_7_11 import FIGURE_11, FIGURES_7_9
+from compare.papers.wang_2025.figures_7_9 import FIGURES_7_9
+from compare.papers.wang_2025.figures_17_19 import FIGURES_17_19
 from compare.papers.wang_2025.table_3 import TABLE_3
 from compare.papers.wang_2025.table_5 import TABLE_5
 from compare.papers.wang_2025.table_8 import TABLE_8
@@ -28,4 +31,5 @@ ITEMS: tuple[Item, ...] = (
     FIGURE_11,
     TABLE_10,
     FIGURES_12_14,
+    FIGURES_17_19,
 )

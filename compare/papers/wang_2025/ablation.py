@@ -2,19 +2,23 @@
 
 Eq. 19 divides the mean best fitness without a strategy by the mean with all of them. It is computed twice:
 over raw values as printed, which carry CEC2017's bias of 100 i, and over f - f*. Mutants count as
-evaluations, so that every variant has the same budget.
+evaluations, so that every variant has the same budget. Where the runs are too few for a verdict, there is none.
 """
 
 from __future__ import annotations
 
 import importlib.util
 from dataclasses import dataclass
+from enum import StrEnum
 from typing import Any
 
 import numpy as np
 from scipy import stats
 
 from compare.audit.paper import settings
+from compare.statistics.equivalence import NEGLIGIBLE, effect_over_instances
+from compare.statistics.pairs import compared, holm
+from compare.statistics.seeds import seeds_for_effect
 from formulations import InputError
 from formulations.problem.arrays import Array
 from metaheuristics import ALGORITHMS, minimise
@@ -36,6 +40,15 @@ PRINTED = _printed()
 """Factors of Table 3 without each of ``STRATEGIES``, by function of CEC2017."""
 BOX = 100.0
 LEVEL = 0.05  # significance of the whole family of tests
+
+
+class StrategyVerdict(StrEnum):
+    """What the runs show of a strategy."""
+
+    helps = "helps"
+    hurts = "hurts"
+    none = "no difference"
+    undecided = "undecided"
 
 
 @dataclass(frozen=True)
@@ -70,6 +83,19 @@ class AblationRun:
     status: str
 
 
+def require_packages() -> None:
+    """Make sure that the packages of the ablation are there, before anything is computed.
+
+    Raises
+    ------
+    InputError
+        One is not installed.
+    """
+    for name in ("minionpy", "statsmodels"):
+        if importlib.util.find_spec(name) is None:
+            raise InputError(f"{name} is not installed: pip install 'timebound[ablation]'")
+
+
 def cec2017(number: int, dim: int) -> Any:
     """Load a function of CEC2017 (minionpy).
 
@@ -88,10 +114,9 @@ def cec2017(number: int, dim: int) -> Any:
     Raises
     ------
     InputError
-        If minionpy is not installed.
+        If a package is not installed.
     """
-    if importlib.util.find_spec("minionpy") is None:
-        raise InputError("minionpy is not installed: pip install 'timebound[ablation]'")
+    require_packages()
     from minionpy.cec import CEC2017Functions
 
     return CEC2017Functions(number, dim)
@@ -134,81 +159,81 @@ def repeat(number: int, swarm: str, protocol: Protocol, seeds: range) -> list[Ab
 def summarise(rows: list[AblationRun]) -> dict[str, Any]:
     """Compute the factors of eq. 19 with intervals, tests and verdicts.
 
+    The tests are those of ``compare.statistics``: on a function Mann-Whitney with Holm's correction over all
+    of them, over the functions the mean of A12, the probability that a run with all strategies is the better.
+
     Parameters
     ----------
     rows : list of AblationRun
-        Runs of MIPSO and of every variant.
+        Runs of MIPSO and of every variant, of each as many.
 
     Returns
     -------
     dict
-        By variant: strategy, and by function printed, raw, factor, their intervals, p, p_holm and verdict;
-        under overall the same over all functions.
+        By variant: strategy, and by function printed, raw, factor, a12, their intervals, p, p_holm, verdict,
+        and needed, the runs that would show an effect as large as the one seen (None: no effect is seen);
+        under overall the counts of these verdicts, and effect, interval, p_holm and verdict over all functions.
     """
     functions = sorted({row.function for row in rows})
     tests: list[tuple[str, int]] = [(s, i) for s in STRATEGIES for i in functions]
     found: dict[str, Any] = {s: {"strategy": STRATEGIES[s], "functions": {}} for s in STRATEGIES}
-    p_values = []
+    pairs = []
     for swarm, number in tests:
         with_all, without = _fitness(rows, "mipso", number), _fitness(rows, swarm, number)
-        p = float(stats.mannwhitneyu(without, with_all, alternative="two-sided").pvalue)
-        p_values.append(p)
+        pair = compared(with_all, without)
+        pairs.append(pair)
         least = 100.0 * number
         factor, low, high = _factor(without - least, with_all - least)
         raw, raw_low, raw_high = _factor(without, with_all)
         found[swarm]["functions"][number] = {
             "printed": PRINTED[number][list(STRATEGIES).index(swarm)],
             "raw": raw, "raw_interval": [raw_low, raw_high],
-            "factor": factor, "interval": [low, high], "p": p,
+            "factor": factor, "interval": [low, high],
+            "a12": pair.a12, "a12_interval": [pair.low, pair.high], "p": pair.p,
         }  # fmt: skip
-    for (swarm, number), p in zip(tests, holm(p_values), strict=True):
+    corrected = holm([pair.p for pair in pairs])
+    for (swarm, number), pair, p in zip(tests, pairs, corrected, strict=True):
+        within = max(0.5 - pair.low, pair.high - 0.5) < NEGLIGIBLE
         entry = found[swarm]["functions"][number]
-        entry["p_holm"] = p
-        entry["verdict"] = (
-            "no difference" if p >= LEVEL else "helps" if entry["factor"] > 1 else "hurts"
-        )
-    return found | {"overall": _overall(found, functions)}
+        entry["p_holm"] = float(p)
+        entry["verdict"] = _verdict(pair.a12, float(p), negligible=within)
+        entry["needed"] = seeds_for_effect(pair.a12, len(tests))
+    runs = len(_fitness(rows, "mipso", functions[0]))
+    return found | {"overall": _overall(found, runs)}
 
 
-def _overall(found: dict[str, Any], functions: list[int]) -> dict[str, Any]:
-    """Test the log factors of all functions by signed ranks, and count the single verdicts."""
-    logs = {s: [np.log(found[s]["functions"][i]["factor"]) for i in functions] for s in STRATEGIES}
-    p = [float(stats.wilcoxon(values).pvalue) for values in logs.values()]
+def _verdict(a12: float, p: float, *, negligible: bool) -> StrategyVerdict:
+    """Say what is shown, by the rule of ``timebound versus``."""
+    if negligible:
+        return StrategyVerdict.none
+    if p >= LEVEL:
+        return StrategyVerdict.undecided
+    return StrategyVerdict.helps if a12 > 0.5 else StrategyVerdict.hurts
+
+
+def _overall(found: dict[str, Any], runs: int) -> dict[str, Any]:
+    """Judge each strategy over all functions, and count the single verdicts."""
+    entries = {s: list(found[s]["functions"].values()) for s in STRATEGIES}
+    effects = [effect_over_instances([e["a12"] for e in entries[s]], runs, runs) for s in STRATEGIES]
     overall = {}
-    for swarm, p_holm in zip(STRATEGIES, holm(p), strict=True):
-        verdicts = [found[swarm]["functions"][i]["verdict"] for i in functions]
-        mean = float(np.exp(np.mean(logs[swarm])))
+    for swarm, effect, p in zip(STRATEGIES, effects, holm([e.p for e in effects]), strict=True):
+        verdicts = [e["verdict"] for e in entries[swarm]]
         overall[swarm] = {
-            "geometric_mean": mean,
-            "p_holm": p_holm,
-            "verdict": "not shown" if p_holm >= LEVEL else "helps" if mean > 1 else "hurts",
-            **{word: verdicts.count(word) for word in ("helps", "hurts", "no difference")},
+            "geometric_mean": float(np.exp(np.mean(np.log([e["factor"] for e in entries[swarm]])))),
+            "effect": effect.mean,
+            "interval": [effect.low, effect.high],
+            "p_holm": float(p),
+            "verdict": _verdict(effect.mean, float(p), negligible=effect.negligible),
+            **{word.value: verdicts.count(word) for word in StrategyVerdict},
         }
     return overall
 
 
-def holm(p_values: list[float]) -> list[float]:
-    """Correct p values by Holm's step-down method (statsmodels).
-
-    Parameters
-    ----------
-    p_values : list of float
-        Of one family of tests.
-
-    Returns
-    -------
-    list of float
-
-    Raises
-    ------
-    InputError
-        If statsmodels is not installed.
-    """
-    if importlib.util.find_spec("statsmodels") is None:
-        raise InputError("statsmodels is not installed: pip install 'timebound[ablation]'")
-    from statsmodels.stats.multitest import multipletests
-
-    return [float(p) for p in multipletests(p_values, method="holm")[1]]
+def size_for_any_effect() -> int:
+    """Runs of each variant that would show any effect on a function that is not negligible."""
+    found = seeds_for_effect(0.5 + NEGLIGIBLE, len(STRATEGIES) * len(PRINTED))
+    assert found is not None
+    return found
 
 
 def _fitness(rows: list[AblationRun], swarm: str, number: int) -> Array:

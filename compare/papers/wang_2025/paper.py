@@ -2,7 +2,10 @@
 
 from __future__ import annotations
 
-from compare.audit.paper import Paper, load_papers, settings
+import numpy as np
+
+from compare.audit.motion.printed_motion import PrintedMotion
+from compare.audit.paper import Paper, PrintedTimes, load_papers, settings
 from compare.benchmark.protocol import Budget
 
 SWARM = "mipso"
@@ -22,6 +25,11 @@ def boxes() -> dict[str, tuple[float, float]]:
     """Other readings of the search box, from the least time of a segment in Tables 9 and 10 [s].
 
     One ends at the greatest time in these tables, the other, as for Li 2022, at the first plan.
+
+    Returns
+    -------
+    dict
+        Least and greatest duration of a segment, by PRINTED_TIMES and FIRST_PLAN.
     """
     times = [time.value for row in paper().rows for time in row.times]
     first_plan = max(settings("wang_2025")["first_plan"]["times"])
@@ -29,8 +37,35 @@ def boxes() -> dict[str, tuple[float, float]]:
 
 
 def in_words(low: float, high: float) -> str:
-    """Write a search box: 0.386 to 2.6606 s a segment."""
+    """Write a search box: 0.386 to 2.6606 s a segment.
+
+    Parameters
+    ----------
+    low, high : float [s]
+        Least and greatest duration of a segment.
+
+    Returns
+    -------
+    str
+    """
     return f"{low:g} to {high:g} s a segment"
+
+
+def fitting_limits(row: PrintedTimes) -> tuple[float, float]:
+    """Find the lowest limits of two digits that a printed vector of one joint keeps.
+
+    Parameters
+    ----------
+    row : PrintedTimes
+        The vector.
+
+    Returns
+    -------
+    tuple of float [deg/s, deg/s^2]
+        Velocity and acceleration.
+    """
+    velocity, acceleration, _ = np.degrees(PrintedMotion.of(paper(), row).rounded[:, 0])
+    return float(velocity), float(acceleration)
 
 
 def budget() -> Budget:

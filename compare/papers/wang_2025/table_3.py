@@ -9,7 +9,10 @@ import numpy as np
 
 from compare.papers.item import Item, Shown, Table
 from compare.papers.wang_2025 import ablation
-from compare.papers.wang_2025.cec2017 import ablation_figure
+from compare.papers.wang_2025.ablation import StrategyVerdict
+from compare.papers.wang_2025.cec2017 import ablation_figure, on_functions
+from compare.statistics.equivalence import NEGLIGIBLE
+from compare.statistics.seeds import least_effect
 
 # a run of 101 x 100 evaluations takes a tenth of a second
 SHORT = ablation.Protocol(100, 50, 100, 10)
@@ -18,7 +21,7 @@ SHORT = ablation.Protocol(100, 50, 100, 10)
 def make_ablation(full: bool) -> dict[str, Any]:
     """Run every variant; factors with intervals, tests and verdicts."""
     protocol = ablation.FULL if full else SHORT
-    ablation.holm([0.5])  # says at once what is missing
+    ablation.require_packages()
     rows = [
         row
         for number in ablation.PRINTED
@@ -41,25 +44,28 @@ def show_ablation(data: dict[str, Any]) -> Shown:
         for functions in entries.values():
             e = functions[number]
             low, high = e["interval"]
-            shown = "" if e["verdict"] == "no difference" else f" {e['verdict']}"
-            factor = f"{e['factor']:.2f} ({low:.2f} to {high:.2f}){shown}"
+            decided = e["verdict"] != StrategyVerdict.undecided
+            factor = f"{e['factor']:.2f} ({low:.2f} to {high:.2f})" + decided * f" {e['verdict']}"
             row += [f"{e['printed']:.2f}", f"{e['raw']:.2f}", factor]
         rows.append(row)
     caption = (
         "Factor by which the mean best fitness grows without one strategy (eq. 19), 95 % interval; "
         'PSO1: no tent map, PSO2: no dynamic factors and inertia, PSO3: no mutation. "Helps" or "hurts" '
-        "where a Mann-Whitney test shows a difference, with Holm's correction over all 24."
+        "where a Mann-Whitney test shows a difference, with Holm's correction over all "
+        f'{len(rows) * len(entries)}; "no difference" where the interval of A12, the probability that a run '
+        "with the strategy is the better, lies within 0.44 and 0.56; nothing where the runs are too few for a "
+        "verdict."
     )
-    remarks = [_reduced(protocol)] if protocol != ablation.FULL else []
+    remarks = [_size(protocol)]
     for swarm, strategy in ablation.STRATEGIES.items():
         o, found = summary["overall"][swarm], entries[swarm].values()
-        least = min(e["printed"] for e in found)
-        shown = "no effect is shown" if o["verdict"] == "not shown" else f"it {o['verdict']}"
+        least, (low, high) = min(e["printed"] for e in found), o["interval"]
+        shown = "no verdict" if o["verdict"] == StrategyVerdict.undecided else o["verdict"]
         remarks.append(
-            f"Without {strategy}: the printed factors are all at least {least:.2f}. Reproduced, the strategy "
-            f"helps on {o['helps']} of {len(found)} functions and hurts on {o['hurts']}; on "
-            f"{o['no difference']} no difference is shown. Over all functions {shown} (geometric mean over "
-            f"f - f* {o['geometric_mean']:.3f}, p = {o['p_holm']:.2g})."
+            f"Without {strategy}: the printed factors are all at least {least:.2f}. Reproduced: "
+            f"{on_functions(summary, swarm)}. Over all functions: {shown} (A12 {o['effect']:.2f}, "
+            f"{low:.2f} to {high:.2f}, p = {o['p_holm']:.2g}; geometric mean of the factors over f - f* "
+            f"{o['geometric_mean']:.3f})."
         )
     pairs = [(e["raw"], e["printed"], e["factor"]) for fs in entries.values() for e in fs.values()]
     apart = [abs(raw - printed) for raw, printed, _ in pairs]
@@ -78,11 +84,21 @@ def show_ablation(data: dict[str, Any]) -> Shown:
     )
 
 
-def _reduced(protocol: ablation.Protocol) -> str:
-    paper = ablation.FULL
+def _size(protocol: ablation.Protocol) -> str:
+    """What the number of runs can show, and how the size differs from the paper's."""
+    paper, tests = ablation.FULL, len(ablation.STRATEGIES) * len(ablation.PRINTED)
+    shown = least_effect(paper.runs, tests)
+    text = (
+        f"{ablation.size_for_any_effect()} runs of each variant would show any effect on a function that is "
+        f"not negligible (A12 of {0.5 + NEGLIGIBLE:g}, power 80 %)"
+        + ("" if shown is None else f"; the {paper.runs} runs of the paper show an A12 of {shown:.2f}")
+        + "."
+    )
+    if protocol == paper:
+        return text
     return (
         f"Made with {protocol.iterations} iterations and {protocol.runs} runs where the paper has "
-        f"{paper.iterations} and {paper.runs}: --full makes those."
+        f"{paper.iterations} and {paper.runs}: --full makes those. {text}"
     )
 
 

@@ -15,7 +15,15 @@ from compare.papers.item import Item, Shown, Table
 from compare.papers.measure import judged, judged_row, least, summary, trials
 from compare.papers.verdicts import BEST, UNUSED, same_times
 from compare.papers.wang_2025.joint_1 import IN_FORCE, LIMITS, joint_1
-from compare.papers.wang_2025.paper import PRINTED_TIMES, SWARM, boxes, budget, in_words, paper
+from compare.papers.wang_2025.paper import (
+    PRINTED_TIMES,
+    SWARM,
+    boxes,
+    budget,
+    fitting_limits,
+    in_words,
+    paper,
+)
 from compare.papers.words import above, listed, seconds
 from formulations import Problem, load, longest_segment
 from formulations.problem.arrays import Array
@@ -55,7 +63,7 @@ def make_table_9(full: bool) -> dict[str, Any]:
 def _own_limits(row: PrintedTimes) -> dict[str, Any]:
     """Lowest limits of two digits that a printed vector keeps, and the optimum under them."""
     motion = PrintedMotion.of(paper(), row)
-    velocity, acceleration = (float(np.degrees(motion.rounded[k, 0])) for k in (0, 1))
+    velocity, acceleration = fitting_limits(row)
     found = least(with_limits(motion.problem, motion.rounded))
     return {"velocity": velocity, "acceleration": acceleration, **found}
 

@@ -13,7 +13,7 @@ from compare.papers import ITEMS
 from compare.papers.item import Table
 
 ASKED = {
-    "sr4c": "Tables 3, 5, 8-10; Figs 4, 5, 7-14",
+    "sr4c": "Tables 3, 5, 8-10; Figs 4, 5, 7-14, 17-19",
     "bagging": "Tables 2, 3; Figs 4-6",
     "ur5": "Tables 2, 4-6; Figs 5-7",
     "z1": "Figs 1, 4-8",
