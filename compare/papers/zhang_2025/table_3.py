@@ -146,8 +146,8 @@ def _offsets(least: dict[str, float]) -> str:
     bounds = " and ".join(f"{miss:.0f} mm in the {name} form" for name, miss in least.items())
     return (
         "Offsets and senses of rotation of the joints are not printed. In Table 1 the distance of the tool "
-        "from the base depends on joint 3 alone. With the best offset and sense of joint 3, and any of the others, "
-        f"some point is missed by at least {bounds}: "
+        "from the base depends on joint 3 alone. With the best offset and sense of joint 3, and any of the "
+        f"others, some point is missed by at least {bounds}: "
         + (
             f"the {' and the '.join(saved)} form may be the arm's."
             if saved
