@@ -11,7 +11,7 @@ import pytest
 from compare.papers.li_2022 import table_3 as li_table_3
 from compare.papers.lu_2024 import figure_1, figures_5_8
 from compare.papers.measure import judged
-from compare.papers.wang_2025 import figures_4_5, joint_1, table_8, table_9
+from compare.papers.wang_2025 import figures_4_5, joint_1, table_8
 from compare.papers.zhang_2025 import figures_6_9, table_3, table_4
 from compare.papers.zhou_2025 import figures_5_7, table_2, tables_4_6
 from formulations import load
@@ -67,31 +67,6 @@ def test_wang_figures_4_and_5() -> None:
     factors["c1"] = factors["c2"]
     assert "as the figure shows: no" in figures_4_5.show_factors(factors).remarks[0]
     plt.close("all")
-
-
-def test_wang_table_9() -> None:
-    joint = {
-        "printed": {"seconds": 3.2803, "stretch": 0.8, "total": "3.2803"},
-        "own": {"acceleration": 60.0},
-        "least": {"bound": 2.4215},
-    }
-    rule = [{"seconds": 4.9, "stretch": 1.0, "keeps": True}]
-    data = {
-        "runs": 1,
-        "joints": [joint],
-        "printed": {"total": "4.8440", "keeps": "yes", "most": "x", "seconds": 4.844},
-        "rule": rule,
-        "rule_printed": rule,
-        "least": {"optimum": 4.7},
-        "joint_1": {"bound": 3.2786},
-    }
-    told = table_9._remarks_9(data)
-    assert told[0].endswith(": none.")
-    assert "Other limits of acceleration than those of Table 6 were in force there." in told[1]
-    joint["printed"] |= {"seconds": 2.4216, "stretch": 1.0}
-    told = table_9._remarks_9(data)
-    assert told[0].endswith(": 1.")
-    assert "were in force" not in told[1]
 
 
 # --- Li 2022 --------------------------------------------------------------------------------------

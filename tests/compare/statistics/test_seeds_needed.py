@@ -8,7 +8,7 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from compare.statistics.pairs import compared
-from compare.statistics.seeds import least_p, least_seeds, seeds_for_effect, seeds_needed
+from compare.statistics.seeds import least_effect, least_p, least_seeds, seeds_for_effect, seeds_needed
 
 
 @pytest.mark.parametrize(("n", "m"), [(1, 1), (2, 3), (4, 4), (5, 5), (3, 9)])
@@ -54,3 +54,17 @@ def test_a_smaller_effect_or_more_tests_never_need_fewer_seeds(a: float, b: floa
 
 def test_no_effect_is_found_by_no_number_of_seeds() -> None:
     assert seeds_for_effect(0.5) is None
+
+
+@given(seeds=st.integers(2, 3000), tests=st.integers(1, 40))
+def test_the_least_effect_is_the_one_that_takes_so_many_seeds(seeds: int, tests: int) -> None:
+    found = least_effect(seeds, tests)
+    if found is None:
+        takes = seeds_for_effect(1.0, tests)
+        assert takes is not None
+        assert takes > seeds
+        return
+    takes, fewer = seeds_for_effect(found * (1 + 1e-9), tests), seeds_for_effect(found - 1e-3, tests)
+    assert takes is not None
+    assert fewer is not None
+    assert takes <= seeds <= fewer

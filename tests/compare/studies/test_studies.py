@@ -166,16 +166,6 @@ def test_cec2017_is_100_i_at_its_optimum(number: int) -> None:
         assert (values[1:] > values[0]).all()
 
 
-def test_holm_is_the_step_down_of_bonferroni() -> None:
-    pytest.importorskip("statsmodels")
-    p = [0.01, 0.04, 0.03, 0.005]
-    expected, worst = [0.0] * 4, 0.0
-    for rank, i in enumerate(np.argsort(p)):
-        worst = max(worst, min(1.0, (4 - rank) * p[i]))
-        expected[i] = worst
-    assert ablation.holm(p) == pytest.approx(expected)
-
-
 def test_a_planted_strategy_is_found_and_nothing_else() -> None:
     pytest.importorskip("statsmodels")
     rng = np.random.default_rng(1)
@@ -193,7 +183,8 @@ def test_a_planted_strategy_is_found_and_nothing_else() -> None:
     overall = summary["overall"]
     assert overall["mipso-pso3"]["helps"] == 8
     assert overall["mipso-pso3"]["verdict"] == "helps"
-    assert overall["mipso-pso1"]["no difference"] == overall["mipso-pso2"]["no difference"] == 8
+    # twelve runs cannot show that there is no difference
+    assert overall["mipso-pso1"]["undecided"] == overall["mipso-pso2"]["undecided"] == 8
     entry = summary["mipso-pso3"]["functions"][17]
     assert entry["interval"][0] < 3.0 < entry["interval"][1]
     assert entry["raw"] < 1.02  # the bias of 1700 hides a factor of three
