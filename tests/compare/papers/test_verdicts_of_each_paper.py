@@ -163,13 +163,15 @@ def test_zhou_figures() -> None:
     problem = load("ur5-corrected")
     slow = judged(problem, [40.0, 60.0, 40.0])
     fast = judged(problem, [2.94, 3.918, 1.195])
-    plans = {"total": "8.053", "printed": fast, "reproduced": slow}
+    plans = {"total": "8.053", "printed": fast, "reproduced": slow, "before": fast}
     told = figures_5_7.show_curves(plans).remarks
     assert "breaks the limits that it was planned for, against what is claimed" in told[0]
     assert "overshoots" in told[1]
     told = figures_5_7.show_curves(plans | {"printed": slow, "reproduced": fast}).remarks
     assert "keeps the limits that it was planned for, as claimed" in told[0]
-    assert "does not keep the limits" in told[2]
+    assert "does not keep the limits" in told[3]
+    assert "breaks the limits until" in told[2]
+    assert "keeps the limits." in figures_5_7.show_curves(plans | {"before": slow}).remarks[2]
     assert "not reproduced" in figures_5_7.show_path(plans | {"miss": [0.04] * 4}).remarks[0]
     assert "is reproduced" in figures_5_7.show_path(plans | {"miss": [0.0001] * 4}).remarks[0]
     plt.close("all")
