@@ -6,6 +6,7 @@ import zlib
 from dataclasses import dataclass
 
 import numpy as np
+from numpy.typing import ArrayLike
 
 from compare.benchmark.coordinates import as_printed, seen_in
 from compare.benchmark.objective import CODINGS, Objective, search_box
@@ -105,6 +106,7 @@ def grade(
     bound: float | None,
     proof: str = BoundProof.local_optimum,
     box: tuple[float, float] | None = None,
+    start: ArrayLike | None = None,
 ) -> Graded:
     """Run a swarm and judge its best vector by the independent check.
 
@@ -119,6 +121,9 @@ def grade(
         What stands behind the bound.
     box : tuple of float, optional [s]
         Least and greatest duration that the swarm may try, where a paper is read so (``search_box``).
+    start : array_like, shape (m, n_segments), optional
+        Vectors to start from, as `metaheuristics.minimise` takes them, in the box and in coordinates as
+        printed. The note of the row tells it from a run without them.
 
     Returns
     -------
@@ -141,6 +146,7 @@ def grade(
             *seen_in(run.coordinates, objective, lo, hi),
             budget=budget,
             seed=_seed(run, joint),
+            start=start,
             **parameters_of(swarm, run.population, run.constants),
         )
         for joint, objective, budget in zip(
@@ -161,6 +167,8 @@ def grade(
     missed = motion.status is RowStatus.ok and run.coding == "stretched" and (gap or 0.0) > REACHED
     if missed and swarm.shortfall:
         note = swarm.shortfall
+    if start is not None:
+        note = "; ".join(filter(None, [f"started from {len(np.asarray(start))} given vectors", note]))
     row = Row(
         case=run.case,
         family=problem.family,

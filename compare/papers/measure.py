@@ -23,6 +23,9 @@ def trials(
     budget: Budget,
     runs: int,
     box: tuple[float, float] | None = None,
+    *,
+    starts: Sequence[ArrayLike] | None = None,
+    **reading: float,
 ) -> list[Graded]:
     """Run a swarm as the papers do: an infeasible candidate has the worst fitness.
 
@@ -38,16 +41,23 @@ def trials(
         Number of runs, with seeds 0, 1, ...
     box : tuple of float, optional [s]
         Another reading of the box that the swarm searches: least and greatest duration of each segment.
+    starts : sequence of array_like, shapes (m, n_segments) [s], optional
+        Vectors from which each run starts.
+    **reading : number or bool
+        Parameters of the swarm in place of its defaults.
 
     Returns
     -------
     list of Graded
         Each is judged by the independent check.
     """
-    size = budget.evaluations, budget.population
+    size, constants = (budget.evaluations, budget.population), tuple(reading.items())
+    asked = [
+        Run(problem.name, "shared", swarm, seed, *size, constants=constants) for seed in range(runs)
+    ]
     return [
-        grade(Run(problem.name, "shared", swarm, seed, *size), problem, None, "none", box)
-        for seed in range(runs)
+        grade(run, problem, None, "none", box, None if starts is None else starts[run.seed])
+        for run in asked
     ]
 
 

@@ -9,6 +9,7 @@ from __future__ import annotations
 from collections.abc import Sequence
 from enum import StrEnum
 from itertools import pairwise
+from math import inf
 
 SAME = 0.01
 """Two times count as the same if they differ by at most this, relative."""
@@ -133,6 +134,25 @@ def same_order(values: Sequence[float]) -> Reproduction:
     """
     rising = all(a < b for a, b in pairwise(values))
     return Reproduction.REPRODUCED if rising else Reproduction.NOT
+
+
+def pairs_won(one: Sequence[float | None], other: Sequence[float | None]) -> float:
+    """Count the pairs of runs in which the first one is shorter.
+
+    Parameters
+    ----------
+    one, other : sequence of (float or None) [s]
+        Times in pairs; None, for a run without a feasible motion, is longer than any time.
+
+    Returns
+    -------
+    float
+        A tie counts half.
+    """
+    pairs = [
+        (inf if a is None else a, inf if b is None else b) for a, b in zip(one, other, strict=True)
+    ]
+    return sum(1.0 if a < b else 0.5 if a == b else 0.0 for a, b in pairs)
 
 
 def more_often(share: float, pairs: int) -> str:

@@ -36,6 +36,10 @@ READINGS: dict[str, dict[str, tuple[str, dict[str, Any]]]] = {
         "as printed": ("mpso", {}),
         "times ten": ("mpso-times-ten", {}),
     },
+    "Li 2022, sec. 3, step 1: populations": {
+        "one of vectors": ("mpso", {}),
+        "one per segment": ("mpso", {"split": True}),
+    },
     "Zhou 2025, eq. 8, 10: sparrows": {
         "resolved": ("sparrow", {}),
         "as printed": ("sparrow-printed", {}),
@@ -43,6 +47,10 @@ READINGS: dict[str, dict[str, tuple[str, dict[str, Any]]]] = {
     "Zhou 2025: share of scouts": {
         "10 %": ("sparrow", {}),
         "20 %": ("sparrow", {"scouts": 0.2}),
+    },
+    "Zhou 2025, sec. 4.2, step 1: groups": {
+        "one flock": ("issa", {}),
+        "two groups": ("issa", {"two_groups": True}),
     },
     "Zhou 2025: how the weights enter": {
         "each chooses": ("issa", {}),

@@ -97,6 +97,58 @@ def rng(seed: int | np.random.SeedSequence) -> np.random.Generator:
     return np.random.default_rng(seed)
 
 
+def start(points: ArrayLike | None, lo: Array, hi: Array) -> Array:
+    """Return the points to start from as the driver's own array.
+
+    Parameters
+    ----------
+    points : ArrayLike, shape (m, dim), or None
+        Points, as the caller gave them.
+    lo, hi : Array, shape (dim,)
+        Ends of the box.
+
+    Returns
+    -------
+    Array, shape (m, dim)
+        A copy; no rows for None.
+
+    Raises
+    ------
+    TaskError
+        They are no points of the box.
+    """
+    if points is None:
+        return np.empty((0, len(lo)))
+    x = np.array(points, dtype=np.float64)
+    if x.ndim != 2 or x.shape[1] != len(lo):
+        raise TaskError(f"start needs shape (m, {len(lo)}), got {x.shape}")
+    outside = ~((x >= lo) & (x <= hi))  # NaN too
+    if outside.any():
+        i, d = np.argwhere(outside)[0]
+        raise TaskError(f"start[{i}, {d}] = {x[i, d]} lies outside the box [{lo[d]}, {hi[d]}]")
+    return x
+
+
+def begins_with(x: Array, given: Array) -> None:
+    """Compare the first points that an algorithm asks for with those that it was given to start from.
+
+    Parameters
+    ----------
+    x : Array, shape (n, dim)
+        Its first population, as far as the budget reaches.
+    given : Array, shape (m, dim)
+        The start.
+
+    Raises
+    ------
+    Fault
+        They are others.
+    """
+    n = min(len(x), len(given))
+    if not np.array_equal(x[:n], given[:n]):
+        raise Fault(Status.ignored_start, f"asked for other points than the {len(given)} to start from")
+
+
 def read_only(x: Array) -> Array:
     """Return a copy that cannot be written to.
 

@@ -77,12 +77,13 @@ def _run(
     hi: Array,
     budget: int,
     seed: np.random.SeedSequence,
+    start: Array,
 ) -> None:
     def remote(x: Array) -> Array:
         channel.send({"kind": "x"}, x.tobytes())
         return np.frombuffer(channel.receive(MOST)[1])
 
-    result = minimise(algorithm, remote, lo, hi, budget=budget, seed=seed, **parameters)
+    result = minimise(algorithm, remote, lo, hi, budget=budget, seed=seed, start=start, **parameters)
     channel.send({"kind": "end", "status": result.status.value, "note": result.note})
 
 

@@ -4,10 +4,10 @@ The process sends points and gets their fitness.  The objective, the archive and
 stay on this side, where the algorithm cannot reach them.  The process (`metaheuristics.driver.child`) runs
 the driver too, so that every fault of the algorithm has its name; this side checks the points again.
 
-What the process is given: the box, the budget, the seed, the algorithm, its parameters, and where modules
-are found.  Its working directory is an empty temporary folder, its environment a short list of variables,
-its standard streams are closed, and its command line names no file of the comparison.  It runs with the
-rights of the user all the same: see "Isolation" in docs/swarms.md.
+What the process is given: the box, the budget, the seed, the points to start from, the algorithm, its
+parameters, and where modules are found.  Its working directory is an empty temporary folder, its environment
+a short list of variables, its standard streams are closed, and its command line names no file of the
+comparison.  It runs with the rights of the user all the same: see "Isolation" in docs/swarms.md.
 """
 
 from __future__ import annotations
@@ -92,7 +92,7 @@ class Apart:
     def __call__(self, task: Task, **parameters: object) -> Moves:
         """Yield the points that the process asks for."""
         seed: Any = task.rng.bit_generator.seed_seq
-        work = self._algorithm, parameters, task.lo, task.hi, task.budget, seed
+        work = self._algorithm, parameters, task.lo, task.hi, task.budget, seed, task.start
         child = Child("run", work, self._seconds, most=8 * task.dim * task.budget)
         try:
             fitness: Array | None = None

@@ -43,6 +43,7 @@ def minimise(
     *,
     budget: int,
     seed: int | np.random.SeedSequence,
+    start: ArrayLike | None = None,
     **parameters: object,
 ) -> Result:
     """Run an algorithm on an objective over a box, for exactly ``budget`` evaluations.
@@ -64,6 +65,10 @@ def minimise(
         Evaluations.  A batch larger than what is left is evaluated as far as it fits, from its first row.
     seed : int or numpy.random.SeedSequence
         Fixes all random numbers.
+    start : ArrayLike, shape (m, dim), optional
+        Points of the box to start from, the most important first: results of an earlier search.  They are
+        the first points that the algorithm asks for, and they count.  All swarms of this package take a
+        start; an algorithm that does not has the status ``ignored-start``, before anything is evaluated.
     **parameters : object
         Parameters of the algorithm.
 
@@ -75,7 +80,7 @@ def minimise(
     Raises
     ------
     TaskError
-        The box, budget or seed makes no task.
+        The box, budget, seed or start makes no task.
     ObjectiveError
         The objective returned something else than n floats above -inf.
     TypeError
@@ -96,6 +101,7 @@ def minimise(
     """
     lower, upper = checks.box(lo, hi)
     budget = checks.budget(budget)
+    given = checks.start(start, lower, upper)
     archive = Archive()
     task = Task(
         lo=checks.read_only(lower),
@@ -103,11 +109,12 @@ def minimise(
         rng=checks.rng(seed),
         budget=budget,
         _used=lambda: archive.evaluations,
+        start=checks.read_only(given),
     )
     inspect.signature(algorithm).bind(task, **parameters)  # a TypeError here is the caller's
     lent = task.lo, task.hi
     with user_interrupt() as interrupt, global_random(task.rng) as drawn:
-        run = _Run(archive, f, lower, upper, budget, interrupt)
+        run = _Run(archive, f, lower, upper, budget, given, interrupt)
         status, note = run.judged(lambda: algorithm(task, **parameters))
     if status is Status.ok and not (
         checks.unchanged(lent[0], lower) and checks.unchanged(lent[1], upper)
@@ -125,9 +132,16 @@ class _Run:
     """One algorithm at work: its time and that of f are measured, and what it asks for is checked."""
 
     def __init__(
-        self, archive: Archive, f: Objective, lo: Array, hi: Array, budget: int, interrupt: Interrupt
+        self,
+        archive: Archive,
+        f: Objective,
+        lo: Array,
+        hi: Array,
+        budget: int,
+        given: Array,
+        interrupt: Interrupt,
     ) -> None:
-        self.archive, self.interrupt = archive, interrupt
+        self.archive, self.given, self.interrupt = archive, given, interrupt
         self.f, self.box, self.budget = f, BoxRows(lo, hi), budget
         self.seconds_algorithm = self.seconds_objective = 0.0
 
@@ -160,6 +174,8 @@ class _Run:
                 x = checks.population(yielded, self.box)[:left]
             finally:
                 self.interrupt.check()
+            if self.archive.evaluations == 0:
+                checks.begins_with(x, self.given)
             started = perf_counter()
             returned = self.f(x.copy())
             self.seconds_objective += perf_counter() - started

@@ -63,6 +63,8 @@ class Status(StrEnum):
         It claims a fitness that is better than any that was evaluated, or is no number.
     global_random
         It drew from ``numpy.random`` or ``random``, and not from the generator of its task.
+    ignored_start
+        It was given points to start from, and did not ask for them first.
     no_feasible_point
         The budget is spent, and every fitness was infinite.
 
@@ -86,6 +88,7 @@ class Status(StrEnum):
     changed_input = "changed-input"
     false_fitness = "false-fitness"
     global_random = "global-random"
+    ignored_start = "ignored-start"
     no_feasible_point = "no-feasible-point"
 
 
@@ -169,12 +172,15 @@ class Task:
         The only source of random numbers.
     budget : int
         Evaluations of the run; most algorithms need `progress` alone.
+    start : Array, shape (m, dim)
+        Points to start from, read-only, the most important first; none by default.  An algorithm that is
+        given some asks for them first: `first` and `started` put them into a first population.
 
     Examples
     --------
     >>> from metaheuristics import minimise
     >>> def shrinking(task, *, population=10):
-    ...     centre = task.sample(1)
+    ...     centre = task.first(1)
     ...     while True:
     ...         width = (1 - task.progress) * (task.hi - task.lo) / 2
     ...         x = task.clip(centre + width * task.rng.uniform(-1, 1, (population, task.dim)))
@@ -189,6 +195,7 @@ class Task:
     rng: np.random.Generator
     budget: int
     _used: Callable[[], int] = field(repr=False)
+    start: Array = field(default_factory=lambda: np.empty((0, 0)))
 
     @property
     def dim(self) -> int:
@@ -214,6 +221,38 @@ class Task:
             Points.
         """
         return self.lo + (self.hi - self.lo) * self.rng.random((n, self.dim))  # rounds to <= hi
+
+    def first(self, n: int) -> Array:
+        """Draw a first population: the points to start from, then uniform points.
+
+        Parameters
+        ----------
+        n : int
+            Number of points.
+
+        Returns
+        -------
+        Array, shape (n, dim)
+            Points.
+        """
+        return self.started(self.sample(n))
+
+    def started(self, x: Array) -> Array:
+        """Put the points to start from into a population that was drawn otherwise.
+
+        Parameters
+        ----------
+        x : Array, shape (n, dim)
+            The population; its first rows are written to.
+
+        Returns
+        -------
+        Array, shape (n, dim)
+            The same array.  A population of fewer than m takes the first points of the start.
+        """
+        if len(self.start):
+            x[: len(self.start)] = self.start[: len(x)]
+        return x
 
     def clip(self, x: Array) -> Array:
         """Move every coordinate that is outside the box to the nearest end of the box.

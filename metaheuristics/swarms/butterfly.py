@@ -48,7 +48,7 @@ def butterfly(
     Array, shape (population, dim)
         Points to be evaluated.
     """
-    x = task.sample(population)
+    x = task.first(population)
     fitness = (yield x).copy()
     generations = max(1.0, (task.budget - population) / population)
     every = np.arange(population)

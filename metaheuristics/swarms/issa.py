@@ -1,4 +1,4 @@
-"""ISSA: sparrow and butterfly moves in one flock, weighted by how fast the best fitness falls.
+"""ISSA: sparrow and butterfly moves, weighted by how fast the best fitness falls.
 
 References
 ----------
@@ -9,6 +9,9 @@ Printed, and how it is read
 ---------------------------
 Eq. 8-11 are those of `metaheuristics.swarms.sparrow`.  These are open:
 
+step 1      Sparrows and butterflies are both started, but eq. 8-15 and steps 2 to 7 have one population.  By
+            default there is one flock, whose individuals make both kinds of moves.  With ``two_groups`` there
+            are two of one size: see `Groups`.
 eq. 13      The window of the mean change: 5 generations.
 eq. 14      The threshold is printed as a difference of fitness, without a value: here a share of the best
             fitness, 1e-3.
@@ -43,6 +46,7 @@ def issa(
     window: int = 5,
     threshold: float = 1e-3,
     blended: bool = False,
+    two_groups: bool = False,
 ) -> Moves:
     """Run ISSA.
 
@@ -51,7 +55,7 @@ def issa(
     task : Task
         Box, random numbers, budget.
     population : int
-        Number of individuals.
+        Number of individuals, in each group if there are two.
     producers, scouts : float
         Shares of the flock.
     safety : float
@@ -64,15 +68,61 @@ def issa(
         Change, as a share of the best fitness, from which all moves are sparrow moves (eq. 14).
     blended : bool
         Add both steps, weighted, in place of a choice between them.
+    two_groups : bool
+        Keep sparrows and butterflies apart (section 4.2, step 1).  Cannot be blended.
 
     Yields
     ------
     Array, shape (m, dim)
         Points to be evaluated.
+
+    Raises
+    ------
+    ValueError
+        Two groups were to be blended.
     """
-    blend = Blend(task, Flock(task.sample(population)), scouts, (p, c, a), window, threshold)
+    if blended and two_groups:
+        raise ValueError("blended=True needs one flock, got two_groups=True")
+    flock = Flock(task.first(population))
+    if two_groups:
+        flock.fitness[:] = yield flock.x
+        flock = Groups(task.sample(population), flock)
+    blend = Blend(task, flock, scouts, (p, c, a), window, threshold)
     combine = blend.blended if blended else blend.chosen
-    yield from forage(task, blend.flock, producers, scouts, safety, combine, blend.weigh)
+    yield from forage(task, flock, producers, scouts, safety, combine, blend.weigh)
+
+
+class Groups(Flock):
+    """Sparrows, each with a butterfly that may move in its place; both groups know the best of both.
+
+    A move that is chosen to be a butterfly's is made, and kept if it is better, by the butterfly of the same
+    row, so that a generation of two groups takes as many evaluations as one of a single flock.
+
+    Parameters
+    ----------
+    x : Array, shape (n, dim)
+        Start of the sparrows.
+    butterflies : Flock
+        The other group, n too, evaluated.
+    """
+
+    def __init__(self, x: Array, butterflies: Flock) -> None:
+        super().__init__(x)
+        self.butterflies = butterflies
+        self.sparrows_move = np.ones(0, dtype=bool)  # (m,): of the moves that are kept next
+
+    def keep(self, rows: Rows, moved: Array, fitness: Array) -> None:
+        """Take over the moves that are better, each in its group."""
+        walked = self.sparrows_move
+        super().keep(rows[walked], moved[walked], fitness[walked])
+        self.butterflies.keep(rows[~walked], moved[~walked], fitness[~walked])
+
+    def exchange(self) -> None:
+        """Put the better best of both groups in place of the worst of the other one (step 7)."""
+        for one, other in ((self, self.butterflies), (self.butterflies, self)):
+            best, worst = one.fitness.argmin(), other.fitness.argmax()
+            if one.fitness[best] < other.fitness.min():
+                other.x[worst], other.fitness[worst] = one.x[best], one.fitness[best]
 
 
 class Blend:
@@ -115,6 +165,8 @@ class Blend:
 
     def weigh(self) -> None:
         """Renew the weight after a generation; the first call, after the start, keeps 0.5."""
+        if isinstance(self.flock, Groups):
+            self.flock.exchange()
         fitness = self.flock.fitness
         before, best = self._best, float(fitness[fitness.argmin()])
         self._best = best
@@ -140,6 +192,8 @@ class Blend:
             What they do, not yet in the box.
         """
         sparrows = self._task.rng.random((len(rows), 1)) < self.weight
+        if isinstance(self.flock, Groups):
+            self.flock.sparrows_move = sparrows[:, 0]
         chosen = self._butterflies(rows)
         if np.count_nonzero(sparrows):
             np.copyto(chosen, moves(), where=sparrows)
@@ -165,7 +219,7 @@ class Blend:
         return w * sparrows + (1 - w) * butterflies  # Zhou 2025, eq. 15
 
     def _butterflies(self, rows: Rows) -> Array:
-        flock = self.flock
+        flock = self.flock.butterflies if isinstance(self.flock, Groups) else self.flock
         smell = fragrance(flock.fitness, self._c, self._a).take(rows)
         return fluttered(self._task, flock.x, rows, int(flock.fitness.argmin()), smell, self._p)
 

@@ -81,7 +81,7 @@ def mipso(
     def held(k: float) -> tuple[float, float, float]:
         return w_max - (w_max - w_min) * MEAN_DECAY, 1.0, 1.0
 
-    x = tent_population(task, population, lam) if tent else task.sample(population)
+    x = tent_population(task, population, lam) if tent else task.first(population)
     yield from _evolve(
         task, x, moving if dynamic else held, (pm1, pm2) if mutation else None, printed=False
     )

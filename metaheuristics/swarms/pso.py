@@ -43,7 +43,7 @@ def pso(
     Array, shape (population, dim)
         Points to be evaluated.
     """
-    yield from fly(task, task.sample(population), lambda k: (w, c1, c2))
+    yield from fly(task, task.first(population), lambda k: (w, c1, c2))
 
 
 def pso_linear(
@@ -73,7 +73,7 @@ def pso_linear(
     Array, shape (population, dim)
         Points to be evaluated.
     """
-    x = task.sample(population)
+    x = task.first(population)
     yield from fly(task, x, lambda k: (linear_inertia(k, w_max, w_min), c1, c2))  # Zhang 2025, eq. 3-4
 
 
@@ -94,4 +94,4 @@ def pso_1995(task: Task, *, population: int = 50, c1: float = 2.0, c2: float = 2
     Array, shape (population, dim)
         Points to be evaluated.
     """
-    yield from fly(task, task.sample(population), lambda k: (1.0, c1, c2))  # Zhang 2025, eq. 1-2
+    yield from fly(task, task.first(population), lambda k: (1.0, c1, c2))  # Zhang 2025, eq. 1-2

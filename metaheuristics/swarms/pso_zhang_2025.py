@@ -72,7 +72,7 @@ def pso_zhang_2025(
     Array, shape (population, dim)
         Points to be evaluated.
     """
-    swarm = Swarm(task, task.sample(population))
+    swarm = Swarm(task, task.first(population))
     while True:
         fitness = yield swarm.x
         swarm.remember(fitness)

@@ -23,5 +23,6 @@ def random_search(task: Task, *, population: int = 50) -> Moves:
     Array, shape (population, dim)
         Points to be evaluated.
     """
+    yield task.first(population)
     while True:
         yield task.sample(population)

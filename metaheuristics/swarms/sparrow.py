@@ -107,7 +107,7 @@ def sparrow(
     Array, shape (m, dim)
         Points to be evaluated.
     """
-    flock = Flock(task.sample(population))
+    flock = Flock(task.first(population))
     yield from forage(task, flock, producers, scouts, safety)
 
 
@@ -130,7 +130,7 @@ def sparrow_printed(
     Array, shape (m, dim)
         Points to be evaluated.
     """
-    flock = Flock(task.sample(population))
+    flock = Flock(task.first(population))
     yield from forage(task, flock, producers, scouts, safety=None)
 
 

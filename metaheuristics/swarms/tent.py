@@ -53,4 +53,5 @@ def tent_population(task: Task, n: int, lam: float = 0.499) -> Array:
     state = task.rng.random(task.dim)
     for row in z:
         row[:] = state = tent_map(state, lam)
-    return task.clip(task.lo + z * (task.hi - task.lo))  # Wang 2025, eq. 13; z = 1 may round past hi
+    # Wang 2025, eq. 13; z = 1 may round past hi
+    return task.started(task.clip(task.lo + z * (task.hi - task.lo)))

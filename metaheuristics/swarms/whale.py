@@ -39,7 +39,7 @@ def whale(task: Task, *, population: int = 50, b: float = 1.0) -> Moves:
     Array, shape (population, dim)
         Points to be evaluated.
     """
-    x = task.sample(population)
+    x = task.first(population)
     leader = Leader(x)
     while True:
         leader.renew(x, (yield x))

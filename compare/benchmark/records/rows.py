@@ -40,6 +40,7 @@ class RowStatus(StrEnum):
     changed_input = "changed-input"
     false_fitness = "false-fitness"
     global_random = "global-random"
+    ignored_start = "ignored-start"
     no_feasible_point = "no-feasible-point"
     nothing_moves = "nothing-moves"
     breaks_position_limits = "breaks-position-limits"

@@ -10,7 +10,11 @@ from compare.benchmark.protocol import Budget
 from formulations import Problem, family_bound, family_optimum, load
 
 SWARMS = {"mpso": "factors as printed", "mpso-times-ten": "factors times ten"}
-READINGS = SWARMS | {"boxed": "factors as printed, 0.1 to 2 s a segment"}
+READINGS = SWARMS | {
+    "boxed": "factors as printed, 0.1 to 2 s a segment",
+    "six": "factors as printed, six populations",
+    "six, all iterations": "factors as printed, six populations, each its 200 iterations",
+}
 
 
 def paper() -> Paper:

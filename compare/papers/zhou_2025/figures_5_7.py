@@ -8,7 +8,7 @@ import matplotlib.pyplot as plt
 import numpy as np
 from matplotlib.figure import Figure
 
-from compare.audit.paper import load_papers
+from compare.audit.paper import load_papers, settings
 from compare.audit.paper.digits import values
 from compare.papers.item import Item, Shown
 from compare.papers.measure import judged, least, spline, summary, trials
@@ -28,13 +28,14 @@ _OVERSHOOT = 1.0  # deg
 
 
 def make_plans(full: bool) -> dict[str, Any]:
-    """Judge the motion of Table 6 and ISSA's plan: each joint alone, then the longest time per segment."""
+    """Judge the first plan, the motion of Table 6, and ISSA's: each joint alone, then the longest times."""
     paper, problem = as_meant()
     row = next(r for r in paper.rows if r.joint is None and r.by == "ISSA")
     alone = [summary(trials(problem.joint(j), "issa", BUDGET, RUNS[full])) for j in range(problem.dof)]
     rule = longest_segment(problem, [np.array(found["durations"]) for found in alone])
     return {
         "total": str(row.total),
+        "before": judged(problem, settings("ur5")["first_plan"]["times"]),
         "printed": judged(problem, values(row.times)),
         "reproduced": judged(problem, rule.claimed),
     }
@@ -181,9 +182,20 @@ def show_curves(data: dict[str, Any]) -> Shown:
                 if low < least_angle - _OVERSHOOT or high > most_angle + _OVERSHOOT
                 else ""
             ),
+            _first_plan(data["before"]),
             f"The rule of the longest time per segment {rule} the limits of all joints here: the reproduced "
             f"plan uses most of the {reproduced['most']}.",
         ],
+    )
+
+
+def _first_plan(before: dict[str, Any]) -> str:
+    """Whether the plan of sec. 5.2, from which the paper counts, keeps the limits."""
+    return f"The plan before, {before['seconds']:.0f} s in equal segments (sec. 5.2), " + (
+        "keeps the limits."
+        if before["keeps"]
+        else f"breaks the limits until all times are stretched by {before['stretch']:.3f}, to "
+        f"{before['seconds'] * before['stretch']:.2f} s."
     )
 
 

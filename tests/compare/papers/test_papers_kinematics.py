@@ -61,6 +61,32 @@ def test_the_cobots_table_3_leads_to_its_table_2():
     assert data["text_miss"] == pytest.approx(100.0, abs=0.01)
 
 
+PUMA = [(0, 0, 0), (0, 0, -90), (149, 432, 0), (433, 0, -90), (0, 0, 90), (0, 0, -90)]  # d, a, alpha
+
+
+def craig(degrees):
+    """Tool of Table 1 in the modified form: a and alpha stand before the turn of their row."""
+    rows = [(0, 0, PUMA[0][1], PUMA[0][2])]
+    rows += [(0, d, *after) for (d, _, _), after in zip(PUMA, [p[1:] for p in PUMA[1:]], strict=False)]
+    return tool([*rows, (0, PUMA[5][0], 0, 0)], [0, *degrees])[:3, 3]
+
+
+def test_table_1_of_zhang_2025_misses_the_points_in_both_forms_with_any_offsets():
+    data = make_angles(False)
+    points, printed = np.array(data["table"]), np.degrees([p["printed"] for p in data["points"]])
+    away = [np.linalg.norm(craig(q) - p) for q, p in zip(printed, points, strict=True)]
+    assert data["forms"]["modified"] == pytest.approx(away, abs=1e-6)
+    rows = [(0, d, a, alpha) for d, a, alpha in PUMA]
+    away = [np.linalg.norm(tool(rows, q)[:3, 3] - p) for q, p in zip(printed, points, strict=True)]
+    assert data["forms"]["standard"] == pytest.approx(away, abs=1e-6)
+    rng = np.random.default_rng(14)
+    for _ in range(300):
+        turned = rng.choice([-1.0, 1.0], 6) * printed + rng.uniform(-180.0, 180.0, 6)
+        for name, forward in (("standard", lambda q: tool(rows, q)[:3, 3]), ("modified", craig)):
+            worst = max(np.linalg.norm(forward(q) - p) for q, p in zip(turned, points, strict=True))
+            assert worst >= data["any_offset"][name] - 0.5  # grid of 0.1 deg
+
+
 @pytest.mark.parametrize(
     ("point", "printed"),
     [

@@ -13,6 +13,7 @@ import compare.papers
 from compare.papers.verdicts import (
     Reproduction,
     more_often,
+    pairs_won,
     same_gain,
     same_gains,
     same_order,
@@ -20,6 +21,11 @@ from compare.papers.verdicts import (
 )
 
 # --- the rules ------------------------------------------------------------------------------------
+
+
+def test_pairs_are_won_by_the_shorter_time_and_a_failed_run_is_longer_than_any() -> None:
+    assert pairs_won([1.0, 2.0, 3.0, None, 1.0, None], [2.0, 2.0, 2.0, 1.0, None, None]) == 3.0
+    assert pairs_won([], []) == 0.0
 
 
 @given(st.floats(-0.9, 0.9), st.floats(-0.9, 0.9))

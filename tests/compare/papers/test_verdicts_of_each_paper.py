@@ -166,13 +166,15 @@ def test_zhou_figures() -> None:
     problem = load("ur5-corrected")
     slow = judged(problem, [40.0, 60.0, 40.0])
     fast = judged(problem, [2.94, 3.918, 1.195])
-    plans = {"total": "8.053", "printed": fast, "reproduced": slow}
+    plans = {"total": "8.053", "printed": fast, "reproduced": slow, "before": fast}
     told = figures_5_7.show_curves(plans).remarks
     assert "breaks the limits that it was planned for, against what is claimed" in told[0]
     assert "overshoots" in told[1]
     told = figures_5_7.show_curves(plans | {"printed": slow, "reproduced": fast}).remarks
     assert "keeps the limits that it was planned for, as claimed" in told[0]
-    assert "does not keep the limits" in told[2]
+    assert "does not keep the limits" in told[3]
+    assert "breaks the limits until" in told[2]
+    assert "keeps the limits." in figures_5_7.show_curves(plans | {"before": slow}).remarks[2]
     assert "not reproduced" in figures_5_7.show_path(plans | {"miss": [0.04] * 4}).remarks[0]
     assert "is reproduced" in figures_5_7.show_path(plans | {"miss": [0.0001] * 4}).remarks[0]
     plt.close("all")
@@ -185,12 +187,19 @@ def test_zhang_table_3() -> None:
     data = table_3.make_angles(False)
     told = table_3.show_angles(data).remarks
     assert told[0].startswith("Reproduced by another arm than the printed one")
-    assert "a misprint" in told[2]
+    assert "365 to 757 mm in the standard form and by 354 to 843 mm in the modified form" in told[0]
+    assert told[1].endswith("no reading of Table 1 is this arm.")
+    assert "a misprint" in told[3]
     for point in data["points"]:
-        point |= {"miss": 0.3, "miss_as_printed": 0.3}
+        point |= {"miss": 0.3}
     told = table_3.show_angles(data | {"text_miss": 0.1}).remarks
     assert told[0].startswith("Not reproduced")
-    assert "a misprint" not in told[2]
+    assert "a misprint" not in told[3]
+    data = table_3.make_angles(False)
+    data["forms"]["modified"] = [0.1] * 4
+    told = table_3.show_angles(data | {"any_offset": {"standard": 182.0, "modified": 0.1}}).remarks
+    assert told[0].startswith("Reproduced by the arm as printed")
+    assert told[1].endswith("the modified form may be the arm's.")
 
 
 def test_zhang_table_4() -> None:

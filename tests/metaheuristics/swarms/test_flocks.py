@@ -10,9 +10,9 @@ import pytest
 from loop_flocks import LoopFlock, loop_butterflies
 from loops import HI, LO, Recorder, assert_same_batches, bowl, boxed, one_task, recorded, start, value
 
-from metaheuristics import Task, minimise
+from metaheuristics import Status, Task, minimise
 from metaheuristics.swarms.butterfly import butterfly, fragrance
-from metaheuristics.swarms.issa import Blend, issa, weight
+from metaheuristics.swarms.issa import Blend, Groups, issa, weight
 from metaheuristics.swarms.sparrow import Flock, forage, sparrow, sparrow_printed
 
 pytestmark = pytest.mark.filterwarnings("error")
@@ -80,6 +80,76 @@ def test_issa_moves_as_the_loops_say(blended: bool) -> None:
     actual = recorded(issa, budget=n + steps * (n + 2), seed=5, population=n, **parameters)
     # later the flock is so close that one rounding decides a comparison
     assert_same_batches(actual.batches[:30], flock.batches[:30])
+
+
+def test_two_groups_of_issa_move_as_the_loops_say() -> None:
+    n, steps, window, threshold = 20, 14, 3, 0.05
+    rng = np.random.default_rng(2)
+    bx = start(rng, n)
+    bf = [value(row) for row in bx]
+    flock = LoopFlock(rng, n, steps + 1, printed=False)  # (budget - n) / (n + scouts)
+    flock.batches.insert(0, np.array(bx))
+    w, c, changes, weights, moved = 0.5, 0.01, [0.0] * window, [], set()
+
+    def batch(rows: Any, moves: list[list[float]], combine: Any) -> None:
+        u = rng.random(len(rows))
+        others = loop_butterflies(rng, np.array(bx), list(rows), bf, c)
+        done = [boxed(a) if v < w else b for a, b, v in zip(moves, others, u, strict=True)]
+        flock.batches.append(np.array(done))
+        for i, move, v in zip(rows, done, u, strict=True):
+            x, f = (flock.x, flock.f) if v < w else (bx, bf)
+            if value(move) < f[i]:
+                x[i], f[i] = move, value(move)
+                moved.add("sparrow" if v < w else "butterfly")
+
+    def exchange() -> None:
+        if min(bf) < min(flock.f):
+            worst = flock.f.index(max(flock.f))
+            flock.x[worst], flock.f[worst] = bx[bf.index(min(bf))][:], min(bf)
+            moved.add("to the sparrows")
+        elif min(flock.f) < min(bf):
+            worst = bf.index(max(bf))
+            bx[worst], bf[worst] = flock.x[flock.f.index(min(flock.f))][:], min(flock.f)
+            moved.add("to the butterflies")
+
+    flock.batch = batch  # type: ignore[method-assign]
+    exchange()
+    for t in range(1, steps + 1):
+        before = min(flock.f)
+        flock.generation(t)
+        exchange()
+        changes = [*changes[1:], abs(min(flock.f) - before)]  # (12)
+        w = min(1.0, sum(changes) / window / (threshold * min(flock.f)))  # (13), (14)
+        c += 0.025 / (c * (steps + 1))
+        weights.append(w)
+
+    assert min(weights) < 0.5 < max(weights)
+    assert moved == {"sparrow", "butterfly", "to the sparrows", "to the butterflies"}
+    parameters: dict[str, Any] = {"window": window, "threshold": threshold, "two_groups": True}
+    budget = 2 * n + steps * (n + 2) + 2  # (budget - n) / (n + scouts) = steps + 1
+    actual = recorded(issa, budget=budget, seed=2, population=n, **parameters)
+    assert_same_batches(actual.batches[:30], flock.batches[:30])
+
+
+def test_two_groups_cannot_be_blended() -> None:
+    result = minimise(issa, bowl, LO, HI, budget=50, seed=0, blended=True, two_groups=True)
+    assert result.status is Status.raised
+    assert "two_groups" in result.note
+
+
+def test_both_groups_know_the_best_of_both_and_never_worsen() -> None:
+    sparrows = np.array([[0.0], [1.0], [2.0]])
+    groups = Groups(sparrows.copy(), Flock(np.array([[5.0], [6.0], [7.0]])))
+    groups.fitness[:], groups.butterflies.fitness[:] = [3.0, 2.0, 4.0], [9.0, 1.0, inf]
+    groups.exchange()
+    assert (groups.x[2, 0], groups.fitness[2]) == (6.0, 1.0)
+    assert groups.butterflies.fitness.tolist() == [9.0, 1.0, inf]
+    groups.sparrows_move = np.array([True, False])
+    groups.keep(np.array([0, 2]), np.array([[8.0], [9.0]]), np.array([2.5, 0.5]))
+    assert groups.x[:, 0].tolist() == [8.0, 1.0, 6.0]
+    assert groups.butterflies.x[:, 0].tolist() == [5.0, 6.0, 9.0]
+    groups.exchange()
+    assert groups.fitness.tolist() == [0.5, 2.0, 1.0]
 
 
 def test_issa_that_always_moves_like_a_sparrow_is_a_sparrow_search() -> None:

@@ -10,7 +10,7 @@ import numpy as np
 import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
-from loops import HI, LO, D, LoopSwarm, assert_same_batches, boxed, clipped, recorded, start
+from loops import HI, LO, D, LoopSwarm, assert_same_batches, boxed, clipped, recorded, start, value
 
 from metaheuristics import ALGORITHMS
 from metaheuristics.driver.task import Moves
@@ -45,6 +45,56 @@ def test_pso_moves_as_the_loops_say(
     assert_same_batches(actual.batches, expected)
     assert inf in actual.values
     assert np.any((actual.points == LO) | (actual.points == HI)), "no position was ever clipped"
+
+
+def test_mpso_with_a_population_per_coordinate_moves_as_the_loops_say() -> None:
+    n, rounds = 6, 10
+    budget = n * (1 + 3 * rounds)
+    rng = np.random.default_rng(9)
+    x = start(rng, n)
+    expected, f = [np.array(x)], [value(row) for row in x]
+    best, least, used = x[f.index(min(f))][:], min(f), n
+    v, own = [[0.0] * 3 for _ in range(n)], [row[:] for row in x]
+    own_f = [f[:] for _ in D]  # of each population
+    moved = set()
+    for _ in range(rounds):
+        for d in D:
+            k = used / budget
+            c = 10 * (0.05 - 0.03 * k)
+            r = rng.random((2, n))
+            batch = []
+            for i in range(n):
+                step = (0.9 - 0.5 * k) * v[i][d]
+                step += c * r[0, i] * (own[i][d] - x[i][d]) + c * r[1, i] * (best[d] - x[i][d])
+                v[i][d] = clipped(step, -0.2 * (HI[d] - LO[d]), 0.2 * (HI[d] - LO[d]))
+                x[i][d] = clipped(x[i][d] + v[i][d], LO[d], HI[d])
+                batch.append([x[i][e] if e == d else best[e] for e in D])
+            expected.append(np.array(batch))
+            f = [value(row) for row in batch]
+            for i in range(n):
+                if f[i] < own_f[d][i]:
+                    own[i][d], own_f[d][i] = x[i][d], f[i]
+            if min(f) < least:
+                best, least = batch[f.index(min(f))][:], min(f)
+                moved.add(d)
+            used += n
+    assert moved == set(D)
+    actual = recorded(mpso, budget=budget, seed=9, population=n, c_start=0.5, c_end=0.2, split=True)
+    assert_same_batches(actual.batches, expected)
+    assert inf in actual.values
+
+
+@given(st.integers(0, 2**32 - 1))
+@settings(max_examples=25, deadline=None)
+def test_the_vector_beside_which_a_population_is_judged_is_the_best_so_far(seed: int) -> None:
+    f = recorded(mpso, budget=8 * 31, seed=seed, population=8, split=True)
+    least, best = inf, f.points[0]
+    for b, batch in enumerate(f.batches):
+        values = np.array(f.values[8 * b : 8 * (b + 1)])
+        if b:  # all but one coordinate stand as they are in the best
+            assert ((batch == best).all(axis=0)).sum() >= 2
+        if values.min() < least:
+            least, best = values.min(), batch[values.argmin()]
 
 
 @pytest.mark.parametrize("times", [1, 10])
