@@ -102,22 +102,6 @@ def median(values: Sequence[float]) -> float | None:
     return float(np.median(values)) if len(values) else None
 
 
-def lower_median(values: Iterable[float]) -> float | None:
-    """Return the median, the lower of the middle two of an even number: one of the values.
-
-    Parameters
-    ----------
-    values : iterable of float
-
-    Returns
-    -------
-    float or None
-        None of no values.
-    """
-    ordered = sorted(values)
-    return ordered[(len(ordered) - 1) // 2] if ordered else None
-
-
 def gaps_of(rows: Iterable[Row]) -> list[float]:
     """Return the gaps of the rows that have one.
 

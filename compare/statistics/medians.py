@@ -50,7 +50,7 @@ def median_of(losses: ArrayLike, level: float = 0.95) -> Estimate:
     x = np.sort(losses_of(losses))
     out = int(stats.binom.ppf((1.0 - level) / 2.0, len(x), 0.5))  # runs left out on each side, and one
     inside = (x[out - 1], x[len(x) - out]) if out > 0 else (-np.inf, np.inf)
-    return Estimate(float(_median(x)), float(inside[0]), float(inside[1]))
+    return Estimate(float(lower_median(x)), float(inside[0]), float(inside[1]))
 
 
 def gain_over(
@@ -78,15 +78,26 @@ def gain_over(
     """
     x, y = losses_of(first), losses_of(second)
     rng = np.random.default_rng(seed)
-    drawn = [_median(z[rng.integers(len(z), size=(resamples, len(z)))]) for z in (x, y)]
+    drawn = [lower_median(z[rng.integers(len(z), size=(resamples, len(z)))]) for z in (x, y)]
     tail = (1.0 - level) / 2.0
     # interpolation between infinite values would give NaN
     low, high = np.quantile(_gain(*drawn), [tail, 1.0 - tail], method="inverted_cdf")
-    return Estimate(float(_gain(_median(x), _median(y))), float(low), float(high))
+    return Estimate(float(_gain(lower_median(x), lower_median(y))), float(low), float(high))
 
 
-def _median(x: Array) -> Array:
-    return np.asarray(np.quantile(x, 0.5, axis=-1, method="inverted_cdf"))
+def lower_median(values: ArrayLike) -> Array:
+    """Return the median along the last axis, the lower of the middle two of an even number: one of the values.
+
+    Parameters
+    ----------
+    values : ArrayLike, shape (..., n), n > 0
+        Infinite ones count.
+
+    Returns
+    -------
+    Array, shape (...)
+    """
+    return np.asarray(np.quantile(np.asarray(values), 0.5, axis=-1, method="inverted_cdf"))
 
 
 def _gain(first: Array, second: Array) -> Array:

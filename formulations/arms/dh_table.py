@@ -4,15 +4,12 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 
-import numpy as np
-
 from formulations.arms.kinematics import Chain
 from formulations.problem.arrays import Array
 from formulations.problem.errors import InputError
+from formulations.problem.joint_words import METRES, UNITS
 
 FORMS = ("standard", "modified")
-METRES = {"m": 1.0, "mm": 1e-3}
-RADIANS = {"rad": 1.0, "deg": np.pi / 180.0}
 
 
 @dataclass(frozen=True)
@@ -46,7 +43,7 @@ class DHTable:
         for key, value, known in (
             ("form", self.form, FORMS),
             ("length", self.length, tuple(METRES)),
-            ("angle", self.angle, tuple(RADIANS)),
+            ("angle", self.angle, tuple(UNITS)),
         ):
             if value not in known:
                 raise InputError(f"{key}: {value!r:.50} is not one of {', '.join(known)}")
@@ -63,7 +60,7 @@ class DHTable:
         -------
         Chain
         """
-        metre, radian = METRES[self.length], RADIANS[self.angle]
+        metre, radian = METRES[self.length], UNITS[self.angle]
         make = Chain if self.form == "standard" else Chain.modified
         return make(
             self.d * metre, self.a * metre, self.alpha * radian, self.offset * radian, self.sign

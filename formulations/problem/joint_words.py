@@ -11,6 +11,7 @@ from formulations.problem.arrays import Array
 from formulations.problem.errors import InputError
 
 UNITS = {"rad": 1.0, "deg": math.pi / 180.0}  # rad per unit of angle
+METRES = {"m": 1.0, "mm": 1e-3}  # m per unit of length
 JOINT_UNITS = ("rad", "m")  # of the position of a rotary and of a prismatic joint
 _PER = ("", "/s", "/s²", "/s³")
 _LONGEST = 100  # characters of a joint's name

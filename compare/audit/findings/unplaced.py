@@ -5,9 +5,10 @@ from __future__ import annotations
 import numpy as np
 
 from compare.audit.findings import Finding
-from compare.audit.paper import UNITS, Paper, StatedLimits
+from compare.audit.paper import Paper, StatedLimits
 from compare.audit.paper.words import number
 from formulations.problem.arrays import Array
+from formulations.problem.joint_words import UNITS
 
 
 def unplaced_findings(paper: Paper) -> list[Finding]:

@@ -33,9 +33,10 @@ def waypoints_beyond(paper: Paper) -> list[Finding]:
         beyond = np.maximum(low - points, points - high) - halves
         for i in np.flatnonzero((beyond > 0.0).any(axis=1)):
             j = int(beyond[i].argmax())
+            joint = j if stated.joint is None else stated.joint
             limit = stated.position[j, int(points[i, j] > high[j])]
             text = (
-                f"joint {(stated.joint or j) + 1} is at {amount(paper, float(points[i, j]), 0)}, the limit of "
+                f"joint {joint + 1} is at {amount(paper, float(points[i, j]), 0)}, the limit of "
                 f"{stated.name} is {amount(paper, float(limit), 0)}"
             )
             where = f"waypoint {i + 1}"

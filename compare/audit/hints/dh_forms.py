@@ -14,8 +14,9 @@ from compare.audit.hints.hint import Change
 from compare.audit.paper import Paper
 from compare.audit.paper.dh import PrintedDH
 from formulations.arms import DHTable
-from formulations.arms.dh_table import FORMS, METRES, RADIANS
+from formulations.arms.dh_table import FORMS
 from formulations.problem.arrays import Array
+from formulations.problem.joint_words import METRES, UNITS
 
 _TURNS = (-90.0, 90.0, 180.0)  # deg: offsets that papers leave out
 _MOST_OFFSETS = 3  # joints with such an offset
@@ -111,7 +112,7 @@ def by_chance(paper: Paper, read: Paper) -> bool:
 
 
 def _change(paper: Paper, dh: PrintedDH, told: list[str], table: DHTable, shift: Array) -> Change:
-    offset = table.offset + shift / RADIANS[table.angle]
+    offset = table.offset + shift / UNITS[table.angle]
     read = replace(dh, table=replace(table, offset=offset))
     turns = [
         f"theta{j + 1} {'+' if turn > 0.0 else '-'} {abs(np.rad2deg(turn)):.0f} deg"
@@ -120,14 +121,14 @@ def _change(paper: Paper, dh: PrintedDH, told: list[str], table: DHTable, shift:
     ]
     words = [*told, *([f"joint offsets {', '.join(turns)}"] if turns else [])]
     told_all = f"{dh.where} read with {' and '.join(words)}"
-    return Change("dh", told_all, replace(paper, dh=read, arm=read.arm(paper.name)), whole=False)
+    return Change("dh", told_all, replace(paper, dh=read, arm=read.arm(paper.name)))
 
 
 def _tables(table: DHTable) -> Iterator[tuple[list[str], DHTable]]:
     """Readings of the table without offsets: form, units and columns together, or form and one sign."""
     for form in FORMS:
         other_form = [] if form == table.form else [f"the {form} form (stated: {table.form})"]
-        for length, angle, crossed in product(METRES, RADIANS, (False, True)):
+        for length, angle, crossed in product(METRES, UNITS, (False, True)):
             told = list(other_form)
             if length != table.length:
                 told.append(f"lengths in {length} (stated: {table.length})")

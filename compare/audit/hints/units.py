@@ -8,9 +8,9 @@ from dataclasses import replace
 import numpy as np
 
 from compare.audit.hints.hint import Change
-from compare.audit.paper import UNITS, Paper, Printed, PrintedTimes, StatedLimits
-from formulations.arms.dh_table import METRES
+from compare.audit.paper import Paper, Printed, PrintedTimes, StatedLimits
 from formulations.motion.verdict import QUANTITIES
+from formulations.problem.joint_words import METRES, UNITS
 
 _SECONDS = {"min": 60.0, "ms": 1e-3}
 _OTHER_ANGLE = {"rad": "deg", "deg": "rad"}

@@ -5,13 +5,12 @@ from __future__ import annotations
 from compare.audit.paper.digits import Printed
 from compare.audit.paper.limits import StatedLimits, with_limits
 from compare.audit.paper.reader import parse_papers
-from compare.audit.paper.records import UNITS, ArithmeticClaim, Paper, Point, PrintedTimes, Total
+from compare.audit.paper.records import ArithmeticClaim, Paper, Point, PrintedTimes, Total
 from compare.audit.paper.shipped import CASE_OF, PAPERS, load_papers, published_text, settings
 
 __all__ = [
     "CASE_OF",
     "PAPERS",
-    "UNITS",
     "ArithmeticClaim",
     "Paper",
     "Point",

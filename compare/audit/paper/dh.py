@@ -10,7 +10,7 @@ import numpy as np
 from compare.audit.paper.digits import halves, row, values
 from formulations import InputError
 from formulations.arms import Arm, DHTable
-from formulations.arms.dh_table import METRES, RADIANS
+from formulations.problem.joint_words import METRES, UNITS
 from formulations.robot.text.files import known_names
 
 _PARTS = ("d", "a", "alpha", "offset", "sign")
@@ -61,7 +61,7 @@ class PrintedDH:
         half unit, about an axis that is at most the whole arm away from the tool.
         """
         chain = self.table.chain()
-        turn = self.angle_half * RADIANS[self.table.angle]
+        turn = self.angle_half * UNITS[self.table.angle]
         whole = float(np.abs(chain.d).sum() + np.abs(chain.a).sum() + np.linalg.norm(chain.base[:3, 3]))
         return self.length_half * METRES[self.table.length] + turn * whole, turn
 

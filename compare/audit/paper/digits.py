@@ -77,7 +77,7 @@ def printed(key: str, raw: Any) -> Printed:
     return Printed(str(raw), float(number), half)
 
 
-def row(key: str, raw: Any, length: int | None = None) -> tuple[Printed, ...]:
+def row(key: str, raw: Any, length: int | None = None, why: str = "") -> tuple[Printed, ...]:
     """Read a list of numbers of a file.
 
     Parameters
@@ -88,6 +88,8 @@ def row(key: str, raw: Any, length: int | None = None) -> tuple[Printed, ...]:
         The list.
     length : int, optional
         How many numbers there have to be.
+    why : str
+        The key that says so, for the message.
 
     Returns
     -------
@@ -101,7 +103,9 @@ def row(key: str, raw: Any, length: int | None = None) -> tuple[Printed, ...]:
     if not isinstance(raw, list) or not raw:
         raise InputError(f"{key}: expected a list of numbers, got {raw!r:.50}")
     if length is not None and len(raw) != length:
-        raise InputError(f"{key}: {len(raw)} values where {length} are expected")
+        raise InputError(
+            f"{key}: {len(raw)} values where {length} are expected{f' ({why})' if why else ''}"
+        )
     return tuple(printed(f"{key}: value {i + 1}", value) for i, value in enumerate(raw))
 
 

@@ -14,7 +14,6 @@ from compare.audit.paper.keys import check_keys
 from compare.audit.paper.limits import StatedLimits
 from compare.audit.paper.records import (
     RULES,
-    UNITS,
     ArithmeticClaim,
     LeftOut,
     Paper,
@@ -24,11 +23,11 @@ from compare.audit.paper.records import (
 )
 from formulations import FAMILIES, InputError
 from formulations.arms import ARMS, Arm, load_arm
-from formulations.arms.dh_table import METRES
 from formulations.motion.verdict import QUANTITIES
 from formulations.problem.arrays import Array
+from formulations.problem.joint_words import METRES, UNITS
 from formulations.problem.toml_file.toml_text import parse_toml
-from formulations.robot.text.files import nearest_of
+from formulations.robot.text.files import known_names, nearest_of
 
 _MOST_JOINTS = 100  # of an arm whose waypoints are not printed
 
@@ -177,7 +176,7 @@ def _rows(paper: Paper, table: dict[str, Any]) -> list[PrintedTimes]:
     for joint, vector, total in zip(joints, times, totals, strict=True):
         joint = None if joint == "all" else joint
         at = where if joint is None else f"{where}, joint {joint!s:.50}"
-        numbers = row(f"table: {at}: times", vector, paper.n_waypoints - 1)
+        numbers = row(f"table: {at}: times", vector, paper.n_waypoints - 1, _segments(paper))
         sums = None if total is None else printed(f"table: {at}: totals", total)
         number = _joint(f"table: {where}: joints", paper, joint)
         rows.append(PrintedTimes(at, by, number, numbers, sums, limits))
@@ -186,7 +185,9 @@ def _rows(paper: Paper, table: dict[str, Any]) -> list[PrintedTimes]:
         columns = zip(*(r.times for r in rows), strict=True)
         longest = tuple(max(column, key=lambda number: number.value) for column in columns)
         if "longest" in table:
-            longest = row(f"table: {where}: longest", table["longest"], paper.n_waypoints - 1)
+            longest = row(
+                f"table: {where}: longest", table["longest"], paper.n_waypoints - 1, _segments(paper)
+            )
         total = printed(f"table: {where}: total", table["total"]) if "total" in table else None
         rows.append(PrintedTimes(at, by, None, longest, total, limits, tuple(rows)))
     return rows
@@ -256,7 +257,18 @@ def _left_out(table: dict[str, Any]) -> LeftOut:
 
 
 def _limits(place: str, paper: Paper, table: dict[str, Any]) -> str | None:
-    return None if "limits" not in table else _one_of(f"{place}: limits", table["limits"], paper.stated)
+    """Find the table of limits that a time vector or a total refers to."""
+    name = table.get("limits")
+    if name is not None and name not in paper.stated:
+        raise InputError(
+            f"{place}: limits: no [[limits]] has the name {name!r:.50}; {known_names(name, paper.stated)}"
+        )
+    return name
+
+
+def _segments(paper: Paper) -> str:
+    """Say where the number of segments comes from."""
+    return f"waypoints: {'count' if paper.waypoints is None else 'rows'}: {paper.n_waypoints}"
 
 
 def _joint(key: str, paper: Paper, joint: Any) -> int | None:
@@ -272,6 +284,6 @@ def _one_of(key: str, value: Any, known: Any) -> str:
     if value not in known:
         near = nearest_of(str(value), known)
         meant = f"; did you mean {near!r}?" if near else ""
-        names = ", ".join(f"{name:.50}" for name in known) or "none, since none are stated"
+        names = ", ".join(f"{name:.50}" for name in known)
         raise InputError(f"{key}: {value!r:.50} is not one of {names}{meant}")
     return str(value)

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import math
 from dataclasses import dataclass, field
 from typing import Any
 
@@ -14,9 +13,9 @@ from compare.audit.paper.limits import UNREACHED, StatedLimits
 from formulations import InputError, Limits, Problem
 from formulations.arms import Arm
 from formulations.problem.arrays import Array
+from formulations.problem.joint_words import UNITS
 from formulations.problem.problem import POSITION_TOLERANCE
 
-UNITS = {"rad": 1.0, "deg": math.pi / 180.0}
 RULES = ("sum", "difference", "mean", "reduction")
 
 

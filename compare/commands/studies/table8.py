@@ -9,7 +9,7 @@ from cyclopts import Parameter
 from compare.commands.options import CORES, Jobs, Json, Out, Resume, positive
 from compare.commands.studies import in_workers
 from compare.papers.wang_2025 import joint_1
-from compare.papers.wang_2025.table_8 import as_text, table8_figure
+from compare.papers.wang_2025.tables.table_8 import as_text, table8_figure
 from compare.studies.study import Call, Study
 
 _BATCH = 50  # runs per call

@@ -37,9 +37,8 @@ def matrix(times: Array, *, as_printed: bool = False) -> Array:
     """
     a = np.zeros((14, 14))
     for piece, (first, degree, t) in enumerate(zip(_FIRST, _DEGREE, times, strict=True)):
-        for order in range(
-            3
-        ):  # rows 1 to 9: values at the end of a segment less those at the next start
+        # rows 1 to 9: values at the end of a segment less those at the start of the next
+        for order in range(3):
             row = 3 * piece + order
             for power in range(order, degree + 1):
                 factor = np.prod(np.arange(power, power - order, -1.0))

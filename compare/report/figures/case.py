@@ -13,11 +13,12 @@ from matplotlib.figure import Figure
 from compare.benchmark.grade import Trace
 from compare.benchmark.ladders import LadderRecord
 from compare.benchmark.records.rows import Row, RunKey
-from compare.benchmark.summaries import lower_median, times_of
+from compare.benchmark.summaries import times_of
 from compare.files import write_text
 from compare.report.figures import convergence_figure, gap_figure, ladder_figure, motion_figure
 from compare.report.motion_picture import fastest_spline
 from compare.report.style import STYLE
+from compare.statistics.medians import lower_median
 from compare.studies.time_split import split, split_figure
 from formulations import Problem
 
@@ -99,7 +100,8 @@ def where_the_time_goes(problem: Problem, ladder: LadderRecord, rows: Sequence[R
     splits = {}
     for variant in dict.fromkeys(row.variant for row in rows):
         mine = [row for row in rows if row.swarm == swarm and row.variant == variant]
-        seconds = lower_median(times_of(mine))
-        if seconds is not None and ladder["ladder"]["free_form"]["seconds"]:
+        times = times_of(mine)
+        if times and ladder["ladder"]["free_form"]["seconds"]:
+            seconds = float(lower_median(times))
             splits[variant] = split(problem, ladder["ladder"], seconds, mine[0].coding)
     return split_figure(f"{problem.name}: where the time of {swarm} goes (median seed)", splits)

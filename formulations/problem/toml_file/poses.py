@@ -8,10 +8,9 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 from formulations.arms import joints_of, load_arm, pose_of
-from formulations.arms.dh_table import METRES
 from formulations.problem.arrays import Array
 from formulations.problem.errors import InputError
-from formulations.problem.joint_words import UNITS
+from formulations.problem.joint_words import METRES, UNITS
 from formulations.problem.toml_file.robot_files import require_few
 from formulations.problem.toml_file.toml_values import (
     known_keys,

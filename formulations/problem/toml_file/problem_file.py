@@ -8,11 +8,10 @@ from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
 from formulations.arms import Arm, load_arm
-from formulations.arms.dh_table import METRES
 from formulations.families import FAMILIES
 from formulations.problem.arrays import Array
 from formulations.problem.errors import InputError
-from formulations.problem.joint_words import UNITS
+from formulations.problem.joint_words import METRES, UNITS
 from formulations.problem.problem import Problem
 from formulations.problem.toml_file.limit_table import limits_of_robot, limits_of_table
 from formulations.problem.toml_file.poses import (

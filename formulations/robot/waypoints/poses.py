@@ -14,7 +14,6 @@ The same in JSON, or as CSV with the columns x, y, z and either roll, pitch, yaw
 
 from __future__ import annotations
 
-import math
 from collections.abc import Sequence
 from dataclasses import dataclass
 
@@ -23,12 +22,11 @@ from scipy.spatial.transform import Rotation
 
 from formulations.problem.arrays import Array
 from formulations.problem.errors import InputError
+from formulations.problem.joint_words import METRES, UNITS
 from formulations.robot.text.entry import TextEntry
 from formulations.robot.text.files import known_names, shown
 from formulations.robot.waypoints.csv_table import CsvTable, numbers_of
 
-METRES = {"m": 1.0, "mm": 1e-3}
-RADIANS = {"rad": 1.0, "deg": math.pi / 180.0}
 FARTHEST = 1e4  # m; a position beyond is a mistaken unit
 
 _TOP = ("poses", "tip", "base", "length", "unit", "near")
@@ -83,7 +81,7 @@ def poses_of_entry(top: TextEntry, unit: str = "rad", length: str = "m") -> Pose
         For an unknown key, a value of the wrong type, and an orientation that is missing or given twice.
     """
     entries = top.entries(_TOP)
-    unit = _unit(entries, "unit", RADIANS, unit)
+    unit = _unit(entries, "unit", UNITS, unit)
     length = _unit(entries, "length", METRES, length)
     found = []
     for entry in entries["poses"].elements():
@@ -96,7 +94,7 @@ def poses_of_entry(top: TextEntry, unit: str = "rad", length: str = "m") -> Pose
         key = given[0]
         position = _vector(keys["position"], _XYZ)
         angles = _vector(keys[key], ("roll", "pitch", "yaw") if key == "rpy" else _XYZW)
-        found.append(_pose(keys["position"].place, position, angles, METRES[length], RADIANS[unit]))
+        found.append(_pose(keys["position"].place, position, angles, METRES[length], UNITS[unit]))
     if not found:
         raise entries["poses"].error("holds no pose")
     near: dict[str, float] | list[float] | None = None
@@ -158,7 +156,7 @@ def poses_of_table(table: CsvTable, unit: str = "rad", length: str = "m") -> Pos
         raise InputError(f"{table.file}: columns are missing: {', '.join(missing)}")
     values = numbers_of(table, header)[:, [header.index(column) for column in wanted]]
     found = [
-        _pose(f"{table.file}: line {line}", row[:3], row[3:], METRES[length], RADIANS[unit])
+        _pose(f"{table.file}: line {line}", row[:3], row[3:], METRES[length], UNITS[unit])
         for (line, _), row in zip(table.rows, values, strict=True)
     ]
     return Poses(np.array(found))

@@ -10,6 +10,7 @@ import numpy as np
 
 from formulations.problem.arrays import Array
 from formulations.problem.errors import InputError, OutOfReach
+from formulations.problem.joint_words import METRES, UNITS
 from formulations.problem.problem import POSITION_TOLERANCE
 from formulations.robot.robot import Robot
 from formulations.robot.text.entry import TextEntry
@@ -17,8 +18,6 @@ from formulations.robot.text.files import decode, known_names, read_bytes, shown
 from formulations.robot.text.trees import parse_json, parse_yaml
 from formulations.robot.waypoints.csv_table import PREFIX, joint_columns, parse_table
 from formulations.robot.waypoints.poses import (
-    METRES,
-    RADIANS,
     Poses,
     has_pose_columns,
     poses_of_entry,
@@ -60,7 +59,7 @@ def waypoints_of(path: str | Path, robot: Robot, *, unit: str = "rad", length: s
         One line that names file, line, joint and value. OutOfReach, which is one, for a pose that the robot
         cannot reach.
     """
-    for key, value, known in (("unit", unit, RADIANS), ("length", length, METRES)):
+    for key, value, known in (("unit", unit, UNITS), ("length", length, METRES)):
         if value not in known:
             raise InputError(f"{key}: {shown(value)} is not one of {', '.join(known)}")
     _suffix(path)
@@ -250,7 +249,7 @@ def _near(found: Poses, file: str, robot: Robot) -> Array | None:
 
 def _scale(robot: Robot, unit: str, length: str) -> Array:
     """SI units per unit of the file, (dof,)."""
-    return np.array([METRES[length] if name == "m" else RADIANS[unit] for name in robot.units])
+    return np.array([METRES[length] if name == "m" else UNITS[unit] for name in robot.units])
 
 
 def _check_positions(waypoints: Array, file: str, robot: Robot, unit: str) -> None:

@@ -29,8 +29,9 @@ def test_published_waypoints_and_limits_are_those_of_the_cases(name: str) -> Non
     ("old", "new", "message"),
     [
         ('family = "3-5-3"', 'family = "3-5"', "family: '3-5' is not one of"),
-        ('limits = "Table 1"', 'limits = "Table 9"', "limits: 'Table 9' is not one of Table 1; did you mean"),
+        ('limits = "Table 1"', 'limits = "Table 9"', "limits: no [[limits]] has the name 'Table 9'; the near"),
         ("joints = [1, 2]", "joints = [1, 3]", "table: Table 2: joints: 3 is not one of 1 to 2"),
+        ('rows = [', 'rows = [["0.5", "0.5"],', "3 values where 4 are expected (waypoints: rows: 5)"),
         ("joints = [1, 2]", "joints = [1]", "joints, times and totals differ in length"),
         ('rule = "reduction"', 'rule = "ratio"', "rule: 'ratio' is not one of"),
         ('of = [9,', 'of = [9, 1,', "of: 3 values where 2 are expected"),

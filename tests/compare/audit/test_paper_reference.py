@@ -197,9 +197,9 @@ def test_any_value_at_any_depth_is_read_or_refused_in_one_line_with_its_key(top:
                 message = str(error)
                 assert "\n" not in message
                 assert len(message) < 400
-                # the key itself, or one that it has to fit
+                # the key itself, or beside it the one that it has to fit
                 key = next(part for part in reversed(path) if isinstance(part, str))
-                assert f"{key}" in message or "table: Table 4" in message, (path, wrong, message)
+                assert key in message, (path, wrong, message)
             else:
                 if top in ("dh", "point"):
                     points_of(paper)

@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 
 from compare.papers.lu_2024.figure_1 import one_orbit, orbit
-from compare.papers.wang_2025 import figures_4_5
+from compare.papers.wang_2025.figures import figures_4_5
 
 
 def test_the_tent_orbit_follows_its_formula() -> None:

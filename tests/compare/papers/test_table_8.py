@@ -8,7 +8,8 @@ import matplotlib.pyplot as plt
 import numpy as np
 import pytest
 
-from compare.papers.wang_2025 import joint_1, table_8
+from compare.papers.wang_2025 import joint_1
+from compare.papers.wang_2025.tables import table_8
 
 MIPSO = np.array([3.2837, 3.2886, 3.2824, 3.2793, 3.2812, 3.2788, 3.2886, 3.2695, 3.2632, 3.2735])
 

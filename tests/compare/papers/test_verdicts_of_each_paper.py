@@ -10,7 +10,9 @@ import pytest
 
 from compare.papers.li_2022 import table_3 as li_table_3
 from compare.papers.measure import judged
-from compare.papers.wang_2025 import figures_4_5, joint_1, table_8
+from compare.papers.wang_2025 import joint_1
+from compare.papers.wang_2025.figures import figures_4_5
+from compare.papers.wang_2025.tables import table_8
 from compare.papers.zhang_2025 import figures_6_9, table_3, table_4
 from compare.papers.zhou_2025 import figures_5_7, table_2, tables_4_6
 from formulations import load

@@ -15,18 +15,9 @@ from scipy import optimize
 from compare.audit.paper import published_text
 from compare.benchmark.objective import search_box
 from compare.papers.measure import trials
-from compare.papers.wang_2025 import (
-    ITEMS,
-    ablation,
-    cec2017,
-    equations_5_7,
-    figures_17_19,
-    joint_1,
-    paper,
-    table_3,
-    table_8_boxes,
-    table_9,
-)
+from compare.papers.wang_2025 import ITEMS, ablation, cec2017, equations_5_7, joint_1, paper
+from compare.papers.wang_2025.figures import figures_17_19
+from compare.papers.wang_2025.tables import table_3, table_8_boxes, table_9
 from formulations import load
 
 PRINTED = tomllib.loads(published_text("sr4c"))

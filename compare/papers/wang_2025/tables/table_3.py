@@ -53,8 +53,8 @@ def show_ablation(data: dict[str, Any]) -> Shown:
         'PSO1: no tent map, PSO2: no dynamic factors and inertia, PSO3: no mutation. "Helps" or "hurts" '
         "where a Mann-Whitney test shows a difference, with Holm's correction over all "
         f'{len(rows) * len(entries)}; "no difference" where the interval of A12, the probability that a run '
-        "with the strategy is the better, lies within 0.44 and 0.56; nothing where the runs are too few for a "
-        "verdict."
+        f"with the strategy is the better, lies within {0.5 - NEGLIGIBLE:.2f} and {0.5 + NEGLIGIBLE:.2f}; "
+        "nothing where the runs are too few for a verdict."
     )
     remarks = [_size(protocol)]
     for swarm, strategy in ablation.STRATEGIES.items():

@@ -33,7 +33,7 @@ from compare.papers.wang_2025.joint_1 import (
     summarise,
 )
 from compare.papers.wang_2025.paper import ALONE, SWARM, paper
-from compare.papers.wang_2025.table_8_boxes import box_remarks, box_table, make_boxes
+from compare.papers.wang_2025.tables.table_8_boxes import box_remarks, box_table, make_boxes
 from compare.papers.words import above, listed, seconds
 from compare.report.style import BLACK, BLUE, GREY, ORANGE, VERMILION, styled
 from compare.screen import table
