@@ -146,9 +146,9 @@ def _remarks_3(data: dict[str, Any]) -> list[str]:
         f"{best} of {len(ratios)} printed vectors are at the certified optimum under their own peak speed, "
         f"whatever the limit was. They take {min(ratios):.2f} to {max(ratios):.2f} times that optimum.",
         f"The starred times add up to {sum(times):.4f} s, printed {s['total']} s, {agrees(adds_up)}: "
-        f"{saved:.2f} "
-        f"% less than {data['first_plan']} s. Their motion peaks at {s['speed']:.4f} rad/s and keeps pi rad/s: "
-        f"{yes_no(s['keeps'])}. The optimum under pi rad/s, without a limit on acceleration, takes "
+        f"{saved:.2f} % less than {data['first_plan']} s. Their motion peaks at {s['speed']:.4f} rad/s and "
+        f"keeps pi rad/s: {yes_no(s['keeps'])}. The optimum under pi rad/s, without a limit on acceleration, "
+        "takes "
         f"{least['optimum']:.4f} s (certified for the family: not less than {least['bound']:.4f} s).",
     ]
     for swarm, title in READINGS.items():

@@ -45,11 +45,9 @@ def show_constants(data: dict[str, Any]) -> Shown:
     runs = len(data[default]["seconds"])
     header = ["constants", "solved", "median [s]", "gain over the first row"]
     caption = (
-        f"{runs} runs each, on the waypoints of the case z1, budget and box as printed; the other "
-        "constant is 1. "
-        "In brackets the 95 % interval of the median. Last column: by how much the median is below "
-        "that of the "
-        f"first row; the {len(others)} intervals hold together at 95 % (bootstrap, Bonferroni)."
+        f"{runs} runs each, on the waypoints of the case z1, budget and box as printed; the other constant "
+        "is 1. In brackets the 95 % interval of the median. Last column: by how much the median is below "
+        f"that of the first row; the {len(others)} intervals hold together at 95 % (bootstrap, Bonferroni)."
     )
     better = [name for name, gain in gains.items() if gain.low > 0.0]
     worse = [name for name, gain in gains.items() if gain.high < 0.0]

@@ -58,9 +58,8 @@ def show_chords(data: dict[str, Any]) -> Shown:
     header = ["durations in proportion to", "degree", "total [s]", "above the best known of degree 5",
               "beyond the position limits [rad]", "keeps all limits"]  # fmt: skip
     caption = (
-        "Each is scaled by the least factor that keeps velocity and acceleration. Position limits "
-        "depend on the "
-        f"ratios alone. The best known B-spline of degree 5 takes {data['optimum']:.3f} s."
+        "Each is scaled by the least factor that keeps velocity and acceleration. Position limits depend on "
+        f"the ratios alone. The best known B-spline of degree 5 takes {data['optimum']:.3f} s."
     )
     chord = data["5"][EQ_5]
     kept = {name: motion for name, motion in data["5"].items() if motion["keeps"]}
@@ -71,17 +70,15 @@ def show_chords(data: dict[str, Any]) -> Shown:
             "keep all limits."
             if chord["keeps"]
             else f"leave the position limits by {chord['excess']:.2f} rad: they are no motion for the "
-            "arm, and no "
-            "scaling mends them."
+            "arm, and no scaling mends them."
         )
     ]
     if kept:
         best = min(kept, key=lambda name: kept[name]["seconds"])
         remarks.append(
             f"The shortest of the {len(RULES)} rules that keeps all limits is: {best}. It takes "
-            f"{kept[best]['seconds']:.2f} s, {above(kept[best]['seconds'], data['optimum'])} from the "
-            "best known, "
-            "from one evaluation. Figs 6-8 set the whales beside it."
+            f"{kept[best]['seconds']:.2f} s, {above(kept[best]['seconds'], data['optimum'])} against the "
+            "best known, and costs one evaluation. Figs 6-8 set the whales beside it."
         )
     return Shown([Table(header, rows, caption, range(1, 6))], remarks)
 
@@ -91,9 +88,9 @@ EQUATIONS_4_5 = Item(
     "chord-length parameters: durations without a search",
     make_chords,
     show_chords,
-    "The paper gives chord-length parameters as one way to get the parameters of the waypoints, and "
-    "then searches "
-    "for better ones. The length of a chord is that of all joints together [rad]. Waypoints of our own "
+    "The paper gives chord-length parameters as one way to get the parameters of the waypoints, and then "
+    "searches for better ones. The length of a chord is that of all joints together [rad]. Waypoints of our "
+    "own "
     "(case z1).",
     cost=6.0,
 )

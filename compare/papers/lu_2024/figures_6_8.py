@@ -122,11 +122,10 @@ def _remarks(data: dict[str, Any]) -> list[str]:
     remarks = [
         f"The waypoints are our own: the printed {printed[0]:.2f} s and {printed[1]:.2f} s cannot be "
         "reproduced, only which method is the shorter one.",
-        f"{outcome}: by the medians of {runs} runs each, the B-spline is {_shorter(first.value)} than "
-        "the quintic "
-        f"({_interval(first)}; printed: {_shorter(claimed)}, which lies "
-        f"{'inside' if inside else 'outside'}). With "
-        f"the same whales for both it is {_shorter(gains['quintic, same whales'].value)} "
+        f"{outcome}: by the medians of {runs} runs each, the B-spline is {_shorter(first.value)} than the "
+        f"quintic ({_interval(first)}; printed: {_shorter(claimed)}, which lies "
+        f"{'inside' if inside else 'outside'}). With the same whales for both it is "
+        f"{_shorter(gains['quintic, same whales'].value)} "
         f"({_interval(gains['quintic, same whales'])}).",
         _stops(data, gains["stops"], claimed),
     ]
@@ -134,9 +133,8 @@ def _remarks(data: dict[str, Any]) -> list[str]:
     left = {key: median_of(times[key]).value / optima[key] - 1.0 for key in _DRAWN}
     remarks.append(
         f"The best known motions of both families take {optima['b-spline-5']:.3f} s and "
-        f"{optima['quintic']:.3f} s: without any swarm the B-spline is {_shorter(apart)}. The median "
-        "whales end "
-        "above the optimum of their own family by "
+        f"{optima['quintic']:.3f} s: without any swarm the B-spline is {_shorter(apart)}. The median whales "
+        "end above the optimum of their own family by "
         + " and ".join(percent(gap) for gap in left.values())
         + "."
     )
@@ -164,15 +162,11 @@ def _stops(data: dict[str, Any], gain: Estimate, claimed: float) -> str:
     bspline = median_of(losses(data["found"]["b-spline-5"])).value
     outcome = shown_gain(claimed, gain.value, gain.low, gain.high)
     return (
-        "The second reading of the rival, a quintic with a full stop at each waypoint, takes "
-        f"{least:.2f} s at best "
-        f"({'keeps' if data['stops_keep'] else 'breaks'} all limits), in closed form and without a "
-        "swarm: that is "
-        f"{_shorter(1.0 - least / quintic)} than the median of the whales on the quintic spline, and "
-        "the whales' "
-        f"B-spline is {_shorter(1.0 - bspline / least)} than it. Against whales on this rival: "
-        f"{outcome.inside}, the "
-        f"B-spline is {_shorter(gain.value)} ({_interval(gain)})."
+        f"The second reading of the rival, a quintic with a full stop at each waypoint, takes {least:.2f} s "
+        f"at best ({'keeps' if data['stops_keep'] else 'breaks'} all limits), in closed form and without a "
+        f"swarm: that is {_shorter(1.0 - least / quintic)} than the median of the whales on the quintic "
+        f"spline, and the whales' B-spline is {_shorter(1.0 - bspline / least)} than it. Against whales on "
+        f"this rival: {outcome.inside}, the B-spline is {_shorter(gain.value)} ({_interval(gain)})."
     )
 
 

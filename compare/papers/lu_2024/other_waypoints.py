@@ -157,8 +157,7 @@ def sets_table(sets: list[dict[str, Any]]) -> Table:
     ]
     caption = (
         "Best motion found within all limits, judged; CMA-ES on the logarithms of the durations, exact "
-        "stretch, "
-        "shapes beyond the position limits ranked by how far they leave them."
+        "stretch, shapes beyond the position limits ranked by how far they leave them."
     )
     return Table(header, rows, caption, (1, 2, 3))
 
@@ -188,12 +187,8 @@ def sets_remarks(sets: list[dict[str, Any]]) -> list[str]:
     without, rival = (failed[name] for name in FAMILIES_COMPARED)
     remarks = [
         f"Further sets of waypoints, drawn alike: a quintic within all limits was found on "
-        f"{len(sets) - len(rival)} of {len(sets)}, a B-spline on {len(sets) - len(without)} of {len(sets)}. "
-        + (
-            "Every set that is left is the B-spline's."
-            if without and not rival
-            else f"The B-spline fails on {len(without)}, the quintic on {len(rival)}."
-        )
+        f"{len(sets) - len(rival)} of {len(sets)}, a B-spline on {len(sets) - len(without)} of {len(sets)}."
+        + (" Only the B-spline fails." if without and not rival else "")
     ]
     for entry in without:
         found = entry["b-spline-5"]
@@ -215,9 +210,8 @@ def sets_remarks(sets: list[dict[str, Any]]) -> list[str]:
         gains = [1.0 - a / b for a, b in pairs]
         remarks.append(
             f"Where both have a motion ({len(pairs)} sets) the B-spline is the shorter one on "
-            f"{sum(gain > 0.0 for gain in gains)}, in the median by {percent(float(np.median(gains)))}. "
-            "Sets without "
-            f"a B-spline: {listed([entry['seed'] for entry in without])}."
+            f"{sum(gain > 0.0 for gain in gains)}, in the median by {percent(float(np.median(gains)))}. Sets "
+            f"without a B-spline: {listed([entry['seed'] for entry in without])}."
         )
     return remarks
 

@@ -117,19 +117,17 @@ def _remarks_6(data: dict[str, Any]) -> list[str]:
     return [
         f"The gain over the standard PSO is {outcomes['PSO'].inside}. Printed, the improved PSO ends "
         f"{_range(printed['PSO'])} % below it; reproduced, {min(gains['PSO']):.2f} to "
-        f"{max(gains['PSO']):.2f} % "
-        f"(negative: above it). The gain over the whales is {outcomes['WOA'].inside}: printed "
+        f"{max(gains['PSO']):.2f} % (negative: above it). The gain over the whales is "
+        f"{outcomes['WOA'].inside}: printed "
         f"{_range(printed['WOA'])} %, reproduced {min(gains['WOA']):.1f} to {max(gains['WOA']):.1f} %.",
         f"For joint 1 and the same algorithm Fig. 6 ends at {end} s and Table 4 adds up to {own:.4f} s"
         + (": the two contradict each other." if abs(end - own) > _ROUNDING else ".")
         + f" {end} s over {way:.0f} deg asks for {way / end:.1f} deg/s on average of any motion. A 3-5-3 "
-        "spline "
-        f"would need a limit of at least {needed:.1f} deg/s; the motion of Table 4 "
+        f"spline would need a limit of at least {needed:.1f} deg/s; the motion of Table 4 "
         f"{'stays below' if needed > limit else 'needs up to'} {limit:.0f} deg/s.",
-        f"A drop of {printed['PSO'][5]} % (joint 6) means that the standard PSO ended at {factor:.0f} "
-        "times the "
-        f"time of the improved one. Of {data['runs']} runs of the standard PSO here, the worst on joint 6 "
-        "ends at "
+        f"A drop of {printed['PSO'][5]} % (joint 6) means that the standard PSO ended at {factor:.0f} times "
+        f"the time of the improved one. Of {data['runs']} runs of the standard PSO here, the worst on joint "
+        "6 ends at "
         f"{worst:.5f} times the certified optimum.",
         "Joint 2 is within 1 % of its end (median run) from iteration "
         + listed([f"{steady[key]} on ({SWARMS[key][0]}, printed {i})" for key, i in says.items()])

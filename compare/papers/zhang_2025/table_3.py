@@ -117,9 +117,8 @@ def show_angles(data: dict[str, Any]) -> Shown:
     return Shown(
         [places, forms, angles],
         [
-            f"{outcome} by {by}: a chain with three parallel axes, fitted to the paper's own numbers, "
-            "leads from "
-            f"Table 3 to Table 2 within {fitted:.3f} mm; the PUMA560 of Table 1 misses the points by "
+            f"{outcome} by {by}: a chain with three parallel axes, fitted to the paper's own numbers, leads "
+            f"from Table 3 to Table 2 within {fitted:.3f} mm; the PUMA560 of Table 1 misses the points by "
             + " and by ".join(
                 f"{min(m):.0f} to {max(m):.0f} mm in the {name} form" for name, m in forms_miss.items()
             )

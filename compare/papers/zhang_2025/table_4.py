@@ -110,8 +110,8 @@ def _remarks(data: dict[str, Any]) -> list[str]:
         f"{data['limit']:.0f} deg/s. The improved PSO, reproduced, comes within "
         f"{data['whole']['median'] / bound - 1.0:.1e} of that optimum.",
         f"No limit is printed. The printed motion peaks at {peak:.1f} deg/s and keeps {data['limit']:.0f} "
-        "deg/s: "
-        f"{yes_no(peak <= data['limit'])}. The other reading, its own peak as the limit, multiplies every time "
+        f"deg/s: {yes_no(peak <= data['limit'])}. The other reading, its own peak as the limit, multiplies "
+        "every time "
         f"here by {data['limit'] / peak:.4f}.",
         f"The first of the two layers alone, the longest time per segment over the joints, takes "
         f"{rule['seconds']:.4f} s and {keeps}.",

@@ -228,7 +228,7 @@ def test_remarks_on_further_sets() -> None:
     ]
     told = other_waypoints.sets_remarks(sets)
     assert "a quintic within all limits was found on 3 of 3, a B-spline on 2 of 3" in told[0]
-    assert told[0].endswith("Every set that is left is the B-spline's.")
+    assert told[0].endswith("Only the B-spline fails.")
     assert "Set 1: no B-spline" in told[1]
     assert "3 starts. 2 of them end at the same least excess, 0.100 rad" in told[1]
     assert "no proof" in told[1]

@@ -191,9 +191,8 @@ def _remarks_9(data: dict[str, Any]) -> list[str]:
         + f" The printed total of joint 1 is {first['printed']['total']} s. Under "
         f"{LIMITS[IN_FORCE][1]:.0f} deg/s² joint 1 cannot be faster than {data['joint_1']['bound']:.4f} s, "
         f"under Table 6 not faster than {bounds[0]:.4f} s.",
-        f"The printed motion of the rule takes {p['total']} s and keeps Table 6: {p['keeps']} "
-        f"({p['most']}). It "
-        f"is {above(p['seconds'], optimum)} against the certified optimum of all joints together, "
+        f"The printed motion of the rule takes {p['total']} s and keeps Table 6: {p['keeps']} ({p['most']}). "
+        f"It is {above(p['seconds'], optimum)} against the certified optimum of all joints together, "
         f"{optimum:.4f} s.",
         *(_claim(data, limits) for limits in (FITTED, STATED)),
         _together(data),
