@@ -72,17 +72,19 @@ def summary(found: Sequence[Graded]) -> dict[str, Any]:
     Returns
     -------
     dict
-        runs (a count), seconds (verified times, rising [s]), median [s] and durations of the median run
-        (the lower one of two; None without a solved run).
+        runs (a count), by_seed (verified times in the order of the runs [s], None where there is none), seconds
+        (the same, rising, without None), median [s] and durations of the median run (the lower one of two; None
+        without a solved run).
     """
     solved = sorted((g.row.seconds, g.run.seed) for g in found if g.row.seconds is not None)
-    by_seed = {g.run.seed: durations_of(g.row).tolist() for g in found}
+    vectors = {g.run.seed: durations_of(g.row).tolist() for g in found}
     median = solved[(len(solved) - 1) // 2] if solved else None
     return {
         "runs": len(found),
+        "by_seed": [g.row.seconds for g in found],
         "seconds": [seconds for seconds, _ in solved],
         "median": None if median is None else median[0],
-        "durations": None if median is None else by_seed[median[1]],
+        "durations": None if median is None else vectors[median[1]],
     }
 
 

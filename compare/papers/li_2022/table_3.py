@@ -44,10 +44,7 @@ def make_table_3(full: bool) -> dict[str, Any]:
             "speed": float(motion.implied[0, 0]),
             "own": certified(with_limits(motion.problem, motion.implied)),
             "least": certified(one),
-            "trials": {
-                reading: {**summary(groups[-1]), "by_seed": [g.row.seconds for g in groups[-1]]}
-                for reading, groups in found.items()
-            },
+            "trials": {reading: summary(groups[-1]) for reading, groups in found.items()},
         })  # fmt: skip
     vectors = {s: [[durations_of(g.row) for g in group] for group in found[s]] for s in found}
     return {

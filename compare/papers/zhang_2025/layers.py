@@ -109,7 +109,7 @@ def make_layers(problem: Problem, alone: list[list[Graded]]) -> dict[str, Any]:
     Returns
     -------
     dict
-        readings: summary, by_seed (times [s]) and evaluations of each; starts: judged, by seed.
+        readings: summary and evaluations of each; starts: judged, by seed.
     """
     starts = integrated(problem, alone)
     found = {reading: second_layer(problem, starts, reading) for reading in READINGS}
@@ -118,7 +118,6 @@ def make_layers(problem: Problem, alone: list[list[Graded]]) -> dict[str, Any]:
         "readings": {
             reading: {
                 **summary(runs),
-                "by_seed": [g.row.seconds for g in runs],
                 "evaluations": runs[0].row.evaluations + (0 if "afresh" in reading else first),
             }
             for reading, runs in found.items()

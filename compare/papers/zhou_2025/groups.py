@@ -30,8 +30,7 @@ def make_groups(problem: Problem, one: Sequence[Sequence[Graded]]) -> dict[str, 
     Returns
     -------
     dict
-        Per reading: by_seed (times of each joint's runs [s], None if a run failed), found (their summaries),
-        arm (the longest time per segment, judged).
+        Per reading: found (a summary of each joint's runs), arm (the longest time per segment, judged).
     """
     two = [
         trials(problem.joint(j), "issa", BUDGET, len(runs), two_groups=True)
@@ -41,11 +40,7 @@ def make_groups(problem: Problem, one: Sequence[Sequence[Graded]]) -> dict[str, 
     for name, by_joint in (("one", one), ("two", two)):
         found = [summary(runs) for runs in by_joint]
         rule = longest_segment(problem, [np.array(f["durations"]) for f in found])
-        read[name] = {
-            "by_seed": [[g.row.seconds for g in runs] for runs in by_joint],
-            "found": found,
-            "arm": judged(problem, rule.claimed),
-        }
+        read[name] = {"found": found, "arm": judged(problem, rule.claimed)}
     return read
 
 
@@ -69,7 +64,7 @@ def groups_table(groups: dict[str, Any], bounds: Sequence[float], printed: Seque
     for j, bound in enumerate(bounds[:-1]):
         medians = [groups[name]["found"][j]["median"] for name in READINGS]
         gaps = [f"{median / bound - 1.0:.1e}" for median in medians]
-        one, two = (groups[name]["by_seed"][j] for name in READINGS)
+        one, two = (groups[name]["found"][j]["by_seed"] for name in READINGS)
         lines.append([f"joint {j + 1}", f"{printed[j]:.3f}", *(f"{m:.4f}" for m in medians),
                       f"{bound:.4f}", *gaps, f"{pairs_won(two, one):g} of {len(one)}"])  # fmt: skip
     seconds = [groups[name]["arm"]["seconds"] for name in READINGS]
@@ -101,7 +96,7 @@ def groups_remark(groups: dict[str, Any], printed: Sequence[float], impossible: 
     str
         A remark of the page.
     """
-    one, two = ([s for joint in groups[name]["by_seed"] for s in joint] for name in READINGS)
+    one, two = ([s for f in groups[name]["found"] for s in f["by_seed"]] for name in READINGS)
     won, n = pairs_won(two, one), len(one)
     found = [f["median"] for f in groups["two"]["found"]] + [groups["two"]["arm"]["seconds"]]
     return (

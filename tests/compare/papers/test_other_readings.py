@@ -48,7 +48,7 @@ def test_zhou_sec_4_2_step_1() -> None:
     def told(two: list[float | None], median: float, impossible: bool) -> str:
         def reading(times: list[float | None], found: float) -> dict[str, Any]:
             arm = {"seconds": found}
-            return {"by_seed": [times] * 6, "found": [{"median": found}] * 6, "arm": arm}
+            return {"found": [{"by_seed": times, "median": found}] * 6, "arm": arm}
 
         read = {"one": reading([3.0, 3.0, None], 3.0), "two": reading(two, median)}
         assert len(groups.groups_table(read, [2.9] * 7, [3.0] * 7).rows) == 7
