@@ -1,7 +1,8 @@
 """Audit of published results: ``python -m compare.audit``.
 
 ``paper`` reads what a paper prints, ``motion`` puts its time vectors back into the spline, ``findings``
-judges them, ``whole_paper`` runs everything, ``chapters`` writes it down.
+judges them, ``hints`` looks for one change that would explain what is wrong, ``whole_paper`` runs everything,
+``chapters`` writes it down.
 """
 
 from __future__ import annotations
