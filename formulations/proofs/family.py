@@ -38,6 +38,7 @@ from formulations.problem.arrays import Array
 from formulations.problem.errors import InputError, NoFeasibleMotion
 from formulations.problem.problem import Problem
 from formulations.proofs.alternation import Alternation, verified
+from formulations.proofs.b_spline import bound as b_spline
 from formulations.proofs.certificate import certificate_of, certificate_of_proof
 from formulations.proofs.displacement import exceeded_time
 from formulations.proofs.domain import data_of
@@ -52,6 +53,8 @@ PROVERS: dict[str, Prover] = {
     "3-5-3": three_five_three.begin,
     "4-3-4": four_three_four.begin,
     "quintic": quintic.begin,
+    "b-spline-3": b_spline.prover_of(3),
+    "b-spline-5": b_spline.prover_of(5),
 }
 
 # each piece of a B-spline depends on every duration: enclosures are narrow only on very small boxes, of
