@@ -87,4 +87,4 @@ def _search(
     def durations(depth: int) -> Array:
         return np.diff(0.5 * (stack[depth - 1, 0] + stack[depth - 1, 1]))
 
-    return ProofSearch(n + 1, MOST_ROWS, 0 if domain.empty else 1, advance, durations)
+    return ProofSearch(n + 1, MOST_ROWS, 0 if domain.empty else 1, advance, durations, turns_cut=True)
