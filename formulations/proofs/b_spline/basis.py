@@ -22,9 +22,9 @@ from formulations.proofs.b_spline.taylor import (
     add_scaled,
     clear,
     close,
-    complement,
     copy_model,
     quotient,
+    share_out,
     size_of,
 )
 
@@ -156,13 +156,7 @@ def basis_row(forms: Any, k: int, order: int, point: Any, ref: Any, out: Any) ->
                 distance(forms.knots[low], point, ref.c, ref.h, number)
                 if not quotient(n, number, ref.between[low, high], share):
                     return False
-                # a product with the share and one with its complement: both rests shrink with them
-                add_product(n, 1.0, share, out[j - 1], out[j])
-                close(n, out[j])
-                complement(share)
-                add_product(n, 1.0, share, out[j - 1], product)
-                close(n, product)
-                copy_model(out[j - 1], product)
+                share_out(n, share, out[j - 1], out[j], product)
             else:
                 add_product(n, float(d * degree), ref.inverse[low, high], out[j - 1], product)
                 close(n, product)

@@ -36,7 +36,7 @@ from formulations.proofs.b_spline.taylor import (
 )
 from formulations.proofs.conditions import JOINT, KIND, ORDER, PIECE, PLACE, SCALE, SEGMENT, SIGN
 
-_GRID = 16  # places per span that are looked at
+_GRID = 8  # places per span that are looked at
 _FINE = 1024.0  # places are multiples of 1 / this, so that their linear forms are exact
 _SLACK = -0.6  # conditions that keep more than this share of their limit are left out
 

@@ -46,7 +46,7 @@ from formulations.proofs.multipliers import minimax
 STACK = 2000
 _TURNS = 4  # rounds of cuts on one box before it is split
 _ROUNDS = 2  # of cuts by travel per turn
-_FEW, _MANY = 4, 14  # conditions that are modelled at first, and in all
+_FEW, _MANY = 3, 12  # conditions that are modelled at first, and in all
 _BENT = 0.5  # share of a condition's own curvature that the linear program counts
 _NARROW = 0.05  # of the widest variable: a narrower one is not split
 _RESTS = 6.0  # weight of a rest beside a slope in the choice of the variable to split

@@ -131,21 +131,6 @@ def close(n: int, a: Any) -> None:
 
 
 @compiled
-def complement(a: Any) -> None:
-    """Turn a model of f into one of 1 - f.
-
-    Parameters
-    ----------
-    a : ndarray, shape (width,)
-        Is changed.
-    """
-    a[VALUE] = 1.0 - a[VALUE]
-    for i in range(SLOPES, len(a)):
-        a[i] = -a[i]
-    a[REST] += ERROR
-
-
-@compiled
 def add_scaled(k: float, a: Any, out: Any) -> None:
     """Add k a to a sum.
 
@@ -237,6 +222,37 @@ def add_terms(n: int, k: float, a: Any, b: Any, out: Any) -> None:
         + b[REST] * size_a
         + ERROR * size_a * size_b
     )
+
+
+@compiled
+def share_out(n: int, a: Any, b: Any, up: Any, work: Any) -> None:
+    """Add a b to one model and keep (1 - a) b of the other.
+
+    The rest of (1 - a) b is that of a product with 1 - a: as a difference it would grow.
+
+    Parameters
+    ----------
+    n : int
+        Number of variables.
+    a : ndarray, shape (width,)
+        A model of a share in [0, 1].
+    b : ndarray, shape (width,)
+        A model; is replaced by (1 - a) b.
+    up : ndarray, shape (width,)
+        Is increased by a b, and closed.
+    work : ndarray, shape (width,)
+        Scratch.
+    """
+    clear(work)
+    add_product(n, 1.0, a, b, work)
+    rest = work[REST] - a[VALUE] * b[REST] + (abs(1.0 - a[VALUE]) + ERROR * (1.0 + abs(a[VALUE]))) * b[REST]
+    rest = max(rest, 0.0) * GROW + ERROR * size_of(b) * (1.0 + size_of(a))
+    for i in range(len(a)):
+        up[i] += work[i]
+        b[i] -= work[i]
+    b[REST] = rest
+    close(n, up)
+    close(n, b)
 
 
 @compiled
