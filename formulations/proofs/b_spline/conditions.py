@@ -123,20 +123,22 @@ def _values(c: Any, degree: int, order: int, length: float, values: Any) -> None
 
 @compiled
 def _extreme(values: Any, g: int, skip_end: bool) -> tuple[float, float]:
-    """Place and value of the maximum about grid point g; the place is -1 if there is none.
+    """Place and value of the maximum about grid point g, by a parabola; the place is -1 if there is none.
 
     The end of a span is the start of the next one.
     """
     y = values[g]
-    if (g > 0 and y < values[g - 1]) or (g < _GRID and y <= values[g + 1]) or (g == _GRID and skip_end):
+    if (g > 0 and y < values[g - 1]) or (g < _GRID and y <= values[g + 1]):
         return -1.0, y
-    place = float(g)
-    if 0 < g < _GRID:
-        p, r = values[g - 1], values[g + 1]
-        bend = p - 2.0 * y + r
-        if bend < 0.0:
-            place += 0.5 * (p - r) / bend
-            y -= 0.125 * (p - r) ** 2 / bend
+    at = min(max(g, 1), _GRID - 1)
+    p, q, r = values[at - 1], values[at], values[at + 1]
+    bend, place = p - 2.0 * q + r, float(g)
+    if bend < 0.0:
+        step = 0.5 * (p - r) / bend
+        if abs(at + step - g) < 1.0 and 0.0 < at + step < _GRID:
+            place, y = at + step, max(y, q - 0.125 * (p - r) ** 2 / bend)
+    if place == _GRID and skip_end:
+        return -1.0, y
     return np.floor(place / _GRID * _FINE + 0.5) / _FINE, y
 
 
