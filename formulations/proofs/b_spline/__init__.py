@@ -1,6 +1,6 @@
 """B-splines: a search over boxes of waypoint times.
 
-taylor           Taylor models of third order
+taylor, products, least     Taylor models of third order
 basis            waypoint times and knots as linear forms; models of the basis functions
 control_points   models of the control points
 conditions       the limits, and their models

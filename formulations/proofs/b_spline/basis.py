@@ -13,18 +13,16 @@ from typing import Any, NamedTuple
 import numpy as np
 
 from formulations.compiled import compiled
+from formulations.proofs.b_spline.products import add_product, quotient, share_out
 from formulations.proofs.b_spline.taylor import (
     ERROR,
     REST,
     SLOPES,
     VALUE,
-    add_product,
     add_scaled,
     clear,
     close,
     copy_model,
-    quotient,
-    share_out,
     size_of,
 )
 
@@ -225,8 +223,8 @@ def collocation(forms: Any, lo: Any, hi: Any, ref: Any) -> bool:
         a, b = _span_range(forms, i, lo, hi)
         middle = _span_at(forms, i, a, b, ref.c)
         rows = ref.rows[i - 1]
-        for l in range(n + 5):
-            clear(rows[l])
+        for col in range(n + 5):
+            clear(rows[col])
         ref.first[i - 1], ref.last[i - 1] = a, b + degree + 1
         if not basis_row(forms, middle, 0, forms.times[i], ref, out):
             return False
@@ -237,10 +235,10 @@ def collocation(forms: Any, lo: Any, hi: Any, ref: Any) -> bool:
                 continue
             if not basis_row(forms, k, 0, forms.times[i], ref, out):
                 return False
-            for l in range(a, b + degree + 1):
-                far, row = size_of(rows[l]), rows[l]
-                if 0 <= l - k <= degree:
-                    other = out[l - k]
+            for col in range(a, b + degree + 1):
+                far, row = size_of(rows[col]), rows[col]
+                if 0 <= col - k <= degree:
+                    other = out[col - k]
                     far = abs(other[VALUE] - row[VALUE])
                     for e in range(SLOPES, len(row)):
                         far += abs(other[e] - row[e])

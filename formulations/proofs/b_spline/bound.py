@@ -17,8 +17,6 @@ the box after the cut by travel.
 
 from __future__ import annotations
 
-from collections.abc import Callable
-
 import numpy as np
 
 from formulations.problem.arrays import Array

@@ -19,6 +19,7 @@ from formulations.compiled import compiled
 from formulations.families.b_spline import population
 from formulations.proofs.b_spline.basis import basis_row
 from formulations.proofs.b_spline.control_points import solve
+from formulations.proofs.b_spline.products import add_terms, fourth_order
 from formulations.proofs.b_spline.taylor import (
     CUBE,
     ERROR,
@@ -28,10 +29,8 @@ from formulations.proofs.b_spline.taylor import (
     SQUARE,
     VALUE,
     add_scaled,
-    add_terms,
     clear,
     close,
-    fourth_order,
     size_of,
 )
 from formulations.proofs.conditions import JOINT, KIND, ORDER, PIECE, PLACE, SCALE, SEGMENT, SIGN
@@ -199,20 +198,20 @@ def _beyond_polynomials(j: int, k: int, degree: int, n: int, ref: Any) -> float:
     """Bound |A zeta| by w(e) sigma + (A - w(e) N) zeta, w to first order."""
     m, rows, Y = n - 1, ref.rows, ref.Y
     w, slopes_w, slopes = np.zeros(m), np.zeros((m, m)), np.zeros((m, m))
-    for l in range(m):
-        if 0 <= l + 3 - k <= degree:
+    for col in range(m):
+        if 0 <= col + 3 - k <= degree:
             for i in range(m):
-                w[i] += ref.basis[l + 3 - k, VALUE] * Y[l, i]
-    for l in range(m):
+                w[i] += ref.basis[col + 3 - k, VALUE] * Y[col, i]
+    for col in range(m):
         for q in range(m):
-            if 0 <= l + 3 - k <= degree:
-                slopes[l, q] = ref.basis[l + 3 - k, SLOPES + q]
+            if 0 <= col + 3 - k <= degree:
+                slopes[col, q] = ref.basis[col + 3 - k, SLOPES + q]
             for i in range(m):
-                slopes[l, q] -= w[i] * rows[i, l + 3, SLOPES + q]
+                slopes[col, q] -= w[i] * rows[i, col + 3, SLOPES + q]
     for i in range(m):
         for q in range(m):
-            for l in range(m):
-                slopes_w[i, q] += slopes[l, q] * Y[l, i]
+            for col in range(m):
+                slopes_w[i, q] += slopes[col, q] * Y[col, i]
     lost, worst, vary = 0.0, 0.0, np.zeros(m)
     for i in range(m):
         for q in range(m):
@@ -220,16 +219,16 @@ def _beyond_polynomials(j: int, k: int, degree: int, n: int, ref: Any) -> float:
         lost += (abs(w[i]) + vary[i]) * ref.sigma[j, i]
         worst = max(worst, ref.sigma[j, i])
     left = ref.work[3]  # A - w N, but for its cubes
-    for l in range(m):
+    for col in range(m):
         clear(left)
         beyond, whole = 0.0, 0.0
-        if 0 <= l + 3 - k <= degree:
-            a = ref.basis[l + 3 - k]
+        if 0 <= col + 3 - k <= degree:
+            a = ref.basis[col + 3 - k]
             for e in range(SLOPES + m + (m * (m + 1)) // 2):
                 left[e] = a[e]
             beyond, whole = a[CUBE] + a[REST], size_of(a)
         for i in range(m):
-            row = rows[i, l + 3]
+            row = rows[i, col + 3]
             left[VALUE] -= w[i] * row[VALUE]
             e = SLOPES + m
             for q in range(m):
@@ -238,7 +237,9 @@ def _beyond_polynomials(j: int, k: int, degree: int, n: int, ref: Any) -> float:
                 e += 1
                 for r in range(q + 1, m):
                     left[e] -= (
-                        w[i] * row[e] + slopes_w[i, q] * row[SLOPES + r] + slopes_w[i, r] * row[SLOPES + q]
+                        w[i] * row[e]
+                        + slopes_w[i, q] * row[SLOPES + r]
+                        + slopes_w[i, r] * row[SLOPES + q]
                     )
                     e += 1
             size = abs(w[i]) + vary[i]
@@ -247,5 +248,5 @@ def _beyond_polynomials(j: int, k: int, degree: int, n: int, ref: Any) -> float:
         left[REST] = 0.0
         close(m, left)
         beyond += size_of(left) + ERROR * whole
-        lost += beyond * ref.inverted[l + 3] * worst
+        lost += beyond * ref.inverted[col + 3] * worst
     return lost * GROW

@@ -19,6 +19,7 @@ import numpy as np
 
 from formulations.compiled import compiled
 from formulations.proofs.b_spline.basis import collocation, knot_tables
+from formulations.proofs.b_spline.products import add_terms, fourth_order
 from formulations.proofs.b_spline.taylor import (
     GROW,
     LINEAR,
@@ -26,10 +27,8 @@ from formulations.proofs.b_spline.taylor import (
     SLOPES,
     VALUE,
     add_scaled,
-    add_terms,
     clear,
     close,
-    fourth_order,
     size_of,
     spread_of,
     width_of,
@@ -160,9 +159,9 @@ def place_reference(forms: Any, lo: Any, hi: Any, ref: Any) -> bool:
     worst = solve(last, alternating, exact, forms, ref)
     if not worst < _DOUBT:
         return False
-    for l in range(3, n + 2):
-        size = (abs(ref.points[last, l]) + spread_of(ref.motion[last, l])) * GROW
-        ref.inverted[l] = size / (1.0 - worst) * GROW
+    for col in range(3, n + 2):
+        size = (abs(ref.points[last, col]) + spread_of(ref.motion[last, col])) * GROW
+        ref.inverted[col] = size / (1.0 - worst) * GROW
     return True
 
 
@@ -212,38 +211,38 @@ def solve(j: int, x: Any, blur: Any, forms: Any, ref: Any) -> float:
     """
     n, inner, m = forms.n, forms.n - 1, forms.n - 1
     points, motion, Y, R = ref.points[j], ref.motion[j], ref.Y, ref.residual
-    for l in range(n + 5):
-        points[l] = x[0] if l < 3 else x[n]
-        clear(motion[l])
-    for l in range(inner):
+    for col in range(n + 5):
+        points[col] = x[0] if col < 3 else x[n]
+        clear(motion[col])
+    for col in range(inner):
         y = 0.0
         for i in range(inner):
-            right = x[i + 1] - x[l + 1]  # the functions add up to 1: measure from waypoint l + 1
+            right = x[i + 1] - x[col + 1]  # the functions add up to 1: measure from waypoint col + 1
             for f in range(3):
-                right -= ref.rows[i, f, VALUE] * (x[0] - x[l + 1])
-                right -= ref.rows[i, n + 2 + f, VALUE] * (x[n] - x[l + 1])
-            y += Y[l, i] * right
-        points[l + 3] = x[l + 1] + y
+                right -= ref.rows[i, f, VALUE] * (x[0] - x[col + 1])
+                right -= ref.rows[i, n + 2 + f, VALUE] * (x[n] - x[col + 1])
+            y += Y[col, i] * right
+        points[col + 3] = x[col + 1] + y
     ends = (SLOPES, SLOPES + m, SLOPES + m + (m * (m + 1)) // 2, R.shape[1])
     for order in range(1, 4):  # any polynomials will do: what they leave is enclosed below
         for i in range(inner):
             _left_of_order(i, order, ends, x, n, ref, points, motion)
-        for l in range(inner):
+        for col in range(inner):
             for i in range(inner):
                 for e in range(ends[order - 1], ends[order]):
-                    motion[l + 3, e] += Y[l, i] * R[i, e]
-    for l in range(3, n + 2):
-        motion[l, REST] = 0.0
-        close(m, motion[l])
-        motion[l, REST] = 0.0  # exact polynomials
+                    motion[col + 3, e] += Y[col, i] * R[i, e]
+    for col in range(3, n + 2):
+        motion[col, REST] = 0.0
+        close(m, motion[col])
+        motion[col, REST] = 0.0  # exact polynomials
     worst = 0.0
     for i in range(inner):
         clear(R[i])
         a, b = max(ref.first[i], 3), min(ref.last[i], n + 2)
-        for l in range(ref.first[i], ref.last[i]):
-            add_scaled(x[i + 1] - points[l], ref.rows[i, l], R[i])
-        for l in range(a, b):
-            add_terms(m, -1.0, ref.rows[i, l], motion[l], R[i])
+        for col in range(ref.first[i], ref.last[i]):
+            add_scaled(x[i + 1] - points[col], ref.rows[i, col], R[i])
+        for col in range(a, b):
+            add_terms(m, -1.0, ref.rows[i, col], motion[col], R[i])
         R[i, REST] += fourth_order(m, ref.rows[i, a:b], motion[a:b], ref.work[3])
         R[i, REST] += blur[i + 1] + blur[n]
         close(m, R[i])
@@ -261,12 +260,12 @@ def _left_of_order(
     R, m = ref.residual[i], n - 1
     for e in range(ends[order - 1], ends[order]):
         R[e] = 0.0
-    for l in range(ref.first[i], ref.last[i]):
-        row, z = ref.rows[i, l], motion[l]
-        d = x[i + 1] - points[l]
+    for col in range(ref.first[i], ref.last[i]):
+        row, z = ref.rows[i, col], motion[col]
+        d = x[i + 1] - points[col]
         for e in range(ends[order - 1], ends[order]):
             R[e] += d * row[e]
-        if order == 1 or not 3 <= l <= n + 1:
+        if order == 1 or not 3 <= col <= n + 1:
             continue
         e, row_q = ends[order - 1], ends[1]
         for q in range(m):

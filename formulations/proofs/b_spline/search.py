@@ -9,6 +9,7 @@ import numpy as np
 from formulations.compiled import compiled
 from formulations.proofs.b_spline.conditions import candidates, condition_model
 from formulations.proofs.b_spline.control_points import empty_reference, place_reference
+from formulations.proofs.b_spline.least import least_on, least_separable
 from formulations.proofs.b_spline.taylor import (
     CUBE,
     REST,
@@ -17,8 +18,6 @@ from formulations.proofs.b_spline.taylor import (
     add_scaled,
     clear,
     close,
-    least_on,
-    least_separable,
     size_of,
     width_of,
 )
@@ -110,7 +109,9 @@ def _narrowed(box: Any, data: Any, times: Any, trace: Any, few: Any) -> bool:
 
 
 @compiled
-def _model_conditions(posed: Any, order: Any, first: int, last: int, kept: int, data: Any, ref: Any) -> int:
+def _model_conditions(
+    posed: Any, order: Any, first: int, last: int, kept: int, data: Any, ref: Any
+) -> int:
     """Model conditions first .. last - 1; returns the number of models."""
     m = posed.g.shape[1]
     for r in range(first, last):

@@ -42,7 +42,7 @@ def reach(v0: float, v1: float, T: float, V: float, A: float) -> float:
     float [rad]
         R, rounded up.
     """
-    if A == np.inf:
+    if np.inf == A:
         return up(V * T)
     u0, u1 = max(down(V - v0), 0.0), max(down(V - v1), 0.0)
     if up(up(V - v0) + up(V - v1)) <= down(A * T):
@@ -84,7 +84,9 @@ def _shortest(d: float, v0: float, v1: float, lo: float, hi: float, V: float, A:
 
 
 @compiled
-def cut_by_travel(lo: Any, hi: Any, shortest: Any, longest: Any, data: Any, v_lo: Any, v_hi: Any) -> bool:
+def cut_by_travel(
+    lo: Any, hi: Any, shortest: Any, longest: Any, data: Any, v_lo: Any, v_hi: Any
+) -> bool:
     """Cut a box of waypoint times by what every joint can cover in every segment.
 
     Parameters
@@ -128,9 +130,7 @@ def cut_by_travel(lo: Any, hi: Any, shortest: Any, longest: Any, data: Any, v_lo
 
 
 @compiled
-def _cut_segment(
-    j: int, k: int, shortest: Any, longest: Any, data: Any, v_lo: Any, v_hi: Any
-) -> bool:
+def _cut_segment(j: int, k: int, shortest: Any, longest: Any, data: Any, v_lo: Any, v_hi: Any) -> bool:
     """Cut duration k and both its end velocities for one joint."""
     V, A = data.speed[j], data.acceleration[j]
     change = up(A * longest[k])

@@ -15,6 +15,7 @@ from family_problems import (
     stretched,
     z1_bound,
 )
+from formulations.proofs.every_motion.velocity_acceleration import velocity_acceleration_bound
 
 from formulations import (
     FAMILIES,
@@ -29,7 +30,6 @@ from formulations import (
     load,
 )
 from formulations.proofs.displacement import displacement_bound, exceeded_time
-from formulations.proofs.every_motion.velocity_acceleration import velocity_acceleration_bound
 from formulations.proofs.family import PROVERS
 from formulations.proofs.four_three_four import bound as four_three_four
 from formulations.proofs.quintic import bound as quintic
