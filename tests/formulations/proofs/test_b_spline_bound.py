@@ -153,6 +153,29 @@ def test_models_of_conditions_hold_what_scipy_computes(degree: int, seed: int) -
 
 
 @DEGREES
+def test_models_of_the_basis_hold_the_truth_where_waypoints_cross_knots(degree: int) -> None:
+    crossings = 0
+    for seed in range(300):
+        rng, problem, data, t, _ = drawn(seed, degree)
+        n, h = problem.n_segments, np.full(len(t), 0.1 * np.diff(t).min())
+        h[0] = h[n] = 0.0
+        ref = empty_reference(n, degree, len(problem.moving_joints))
+        if not place_reference(data.forms, t - h, t + h, ref):
+            continue
+        crossed = ref.last - ref.first > degree + 1
+        crossings += int(crossed.sum())
+        for _ in range(4 if crossed.any() else 0):
+            e = rng.choice([-1.0, 1.0], n - 1)
+            at = ref.c.copy()
+            at[1:n] += ref.h[1:n] * e
+            knots, _ = spline_at(problem, at, degree)
+            truth = BSpline.design_matrix(at[1:n], knots, degree).toarray()
+            for models, row in zip(ref.rows, truth, strict=True):
+                assert all(holds_value(m, e, y) for m, y in zip(models, row, strict=True))
+    assert crossings > 20
+
+
+@DEGREES
 def test_the_inverse_of_the_collocation_matrix_is_bounded(degree: int) -> None:
     for seed in range(30):
         rng, problem, data, t, h = drawn(seed, degree)
