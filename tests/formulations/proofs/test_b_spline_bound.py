@@ -259,7 +259,7 @@ def follow_splines(problem: Problem, base: Any, above: float, shrink: float, rng
             jerk=limits.jerk * shrink,
         ),
     )
-    proof = proof_of(other, L, 3000, narrow=0.01, aside=True, record=True)
+    proof = proof_of(other, L, 6000, narrow=0.002, aside=True, record=True)
     times = np.pad(np.cumsum(points, axis=1), ((0, 0), (1, 0)))
     times[:, -1] = L
     return len(points), *followed(proof, times)
