@@ -22,7 +22,7 @@ from formulations.problem.problem import Problem
 from formulations.problem.size import require_moderate
 from formulations.proofs.each_joint import each_joint_alone
 from formulations.proofs.every_motion.bound import free_form_bound
-from formulations.proofs.family import family_bound, proved_optimum
+from formulations.proofs.family import affordable_gap, family_bound, proved_optimum
 from formulations.proofs.status import BoundStatus
 from formulations.references.copp_ import COPP_FAMILY_PATH
 from formulations.references.displacement import DISPLACEMENT
@@ -32,7 +32,7 @@ from formulations.references.toppra_ import TOPPRA_CUBIC, TOPPRA_FAMILY_PATH
 
 LARGE = 30  # segments; of larger problems the rungs of the family are computed on demand
 _SHARE = 0.5  # of the time that is left, for one optimum
-_GAP, _TIME_LIMIT = 1e-7, 20.0  # of the certified bound of the family; s
+_TIME_LIMIT = 20.0  # s
 
 
 def ladder(
@@ -213,9 +213,9 @@ def _free_form(climb: Climb) -> Outcome:
 
 
 def _family(climb: Climb) -> Outcome:
-    left = _SHARE * climb.deadline.left
+    left, gap = _SHARE * climb.deadline.left, affordable_gap(climb.problem.family)[0]
     optimum, bound = proved_optimum(
-        climb.problem, gap=_GAP, time_limit=left, record=climb.certificate, **climb.search
+        climb.problem, gap=gap, time_limit=left, record=climb.certificate, **climb.search
     )
     verdict = optimum.verdict
     if not verdict.feasible:
@@ -235,10 +235,11 @@ def _family_lower(climb: Climb) -> Outcome:
         return Outcome.not_applicable("not asked for")
     if climb.optimum is None:
         return Outcome.not_applicable("there is no family optimum to start from")
+    gap, time_limit = affordable_gap(climb.problem.family)
     climb.bound = bound = climb.bound or family_bound(
         climb.problem,
-        gap=_GAP,
-        time_limit=climb.deadline.within(_TIME_LIMIT).left,
+        gap=gap,
+        time_limit=climb.deadline.within(time_limit).left,
         stop=climb.deadline.stop,
         optimum=climb.optimum,
         record=climb.certificate,
@@ -251,11 +252,11 @@ def _family_lower(climb: Climb) -> Outcome:
     note = f"{bound.boxes} boxes, gap {bound.gap:.2g}" if bound.boxes else state
     if bound.boxes and bound.status is not BoundStatus.PROVED:
         note += f", {state}"
-    if bound.upper < climb.optimum.seconds * (1.0 - _GAP):
+    if bound.upper < climb.optimum.seconds * (1.0 - gap):
         note += f"; the proof found a faster motion, {bound.upper:.9g} s"
     if whole > bound.seconds:  # its splines are motions
-        gap = climb.optimum.seconds / whole - 1.0
-        return Outcome.ok(whole, note=f"that of all motions, gap {gap:.2g}; {note}")
+        left = climb.optimum.seconds / whole - 1.0
+        return Outcome.ok(whole, note=f"that of all motions, gap {left:.2g}; {note}")
     return Outcome.ok(bound.seconds, note=note)
 
 

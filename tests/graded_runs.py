@@ -30,13 +30,8 @@ def unbeatable(case: str) -> float:
     """What no verified motion of the case's family can beat: a theorem, where there is a prover."""
     bound = climbed(case).bound
     assert bound is not None
-    if bound.status == "proved":
-        return bound.least_verified
-    # of a B-spline it is the bound of every motion that is proved
-    assert load(case).family.startswith("b-spline"), bound.status
-    lower = climbed(case).seconds("free_form_lower")
-    assert lower is not None
-    return max(lower * (1.0 - 10.0 * TOLERANCE), bound.least_verified)
+    assert bound.status == "proved"
+    return bound.least_verified
 
 
 def without_times(row: Row) -> dict[str, Any]:

@@ -10,6 +10,6 @@ multipliers         a small linear program that proposes multipliers (no proof d
 certificate         a proof as plain data, and on disk
 
 arithmetic          rounded arithmetic: scalars in compiled code, and intervals on whole arrays
-three_five_three, four_three_four, quintic     the provers of the families, a folder each
-every_motion        bounds that hold for every motion, so for B-splines too
+three_five_three, four_three_four, quintic, b_spline     the provers of the families, a folder each
+every_motion        bounds that hold for every motion
 """

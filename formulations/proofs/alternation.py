@@ -80,6 +80,7 @@ class Alternation:
         self.boxes, self.restarts = 0, 0
         self.most_boxes = np.inf if most_boxes is None else most_boxes
         self.best: Proof | None = None
+        self.paused: Proof | None = None
         self.upper, self.durations = np.inf, durations
         self._adopt(durations)
         if not np.isfinite(self.upper):
@@ -93,7 +94,8 @@ class Alternation:
         """Prove the best bound that the time allows.
 
         A first attempt goes for the final gap, for a tenth of the time: it suffices for most problems.
-        Then the gaps go from coarse to fine, so that a time limit leaves a bound that is nearly as good.
+        Then the gaps go from coarse to fine, so that a time limit leaves a bound that is nearly as good;
+        at last the first attempt is resumed.
         An anytime prover needs no coarse gaps, because its unfinished attempts are bounds as well: it
         goes for the final gap all the time. With a limit on the boxes there is the first attempt alone.
 
@@ -132,7 +134,9 @@ class Alternation:
         while True:
             # a little finer than asked, so that rounding does not leave the gap a digit above it;
             # and never less than what is known already
-            proof = self._attempt(max(self.upper / (1.0 + gap * (1.0 - 1e-6)), self.least))
+            L = max(self.upper / (1.0 + gap * (1.0 - 1e-6)), self.least)
+            resumed = self.paused is not None and self.paused.L == L
+            proof = self.paused if resumed and self.paused else self._attempt(L)
             improved = self._run(proof)
             if proof.seconds > (self.best.seconds if self.best else 0.0):
                 self.best = proof
@@ -144,6 +148,7 @@ class Alternation:
             if self.interrupt.over:
                 return BoundStatus.INTERRUPTED, ""
             if not proof.stuck:
+                self.paused = proof
                 out_of_boxes = self.boxes >= self.most_boxes
                 return BoundStatus.BOX_LIMIT if out_of_boxes else BoundStatus.TIME_LIMIT, ""
             if proof.search.impossible:

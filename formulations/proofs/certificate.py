@@ -10,7 +10,9 @@
     events     in depth-first order (see ``events``), the first letter says which:
                ["T"] ["E"] ["S", k, value] ["L", rows] ["B", k, value, rows] ["A", k, value, rows]
                an event without rows has those of the event before; the quintic's are in ``quintic.bound``
-    a row      ["p", joint, segment, order, place, sign, multiplier]   a limit inside a piece
+               a B-spline's ["T", lo, hi] states the times of the inner waypoints that a turn leaves
+    a row      ["p", joint, segment, order, place, sign, multiplier]   a limit inside a piece (of a
+                                                                       B-spline: a knot span)
                ["j", joint, segment, sign, multiplier]                 the jerk across an open segment
                ["t", multiplier] total   ["f", multiplier] first   ["l", multiplier] last
 
@@ -165,8 +167,12 @@ def _events(problem: Problem, proof: Proof) -> list[list[Any]]:
     moving = problem.moving_joints
     events: list[list[Any]] = []
     before = b""
-    for (code, k, count), value, rows in zip(log.codes.tolist(), log.values, log.rows, strict=True):
+    for (code, k, count), value, box, rows in zip(
+        log.codes.tolist(), log.values, log.boxes, log.rows, strict=True
+    ):
         event: list[Any] = [_LETTER_OF_EVENT[code]]
+        if code == TURN and proof.search.turns_cut:
+            event += _hex(box[:, 1:-1])
         if code in (BELOW, ABOVE, SPLIT):
             event += [k, float(value).hex()]
         if code in (BELOW, ABOVE, LEAF):

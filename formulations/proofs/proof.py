@@ -50,6 +50,8 @@ class ProofSearch:
         For 3-5-3 with a middle segment on which nothing moves: tau [s], and the discards for T2 <= tau.
     anytime : Anytime or None
         For a prover whose unfinished attempts prove something too.
+    turns_cut : bool
+        Whether a turn cuts the box by a search of roots, so that a certificate states the box after it.
     """
 
     n_variables: int
@@ -60,6 +62,7 @@ class ProofSearch:
     impossible: str = ""
     short: tuple[float, Array] | None = None
     anytime: Anytime | None = None
+    turns_cut: bool = False
 
 
 class Prover(Protocol):

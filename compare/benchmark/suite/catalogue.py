@@ -70,7 +70,7 @@ def _instances() -> Iterator[Instance]:
 def _recipe(index: int) -> Recipe:
     """Choose arm, family, segments and limits so that every pair of an arm and a family comes up.
 
-    One in four is a B-spline: nobody has a tight bound of that family.
+    One in four is a B-spline.
     """
     arms = tuple(arm_sheets())
     slot, turn = (index + index // 20) % 4, index // 4

@@ -7,5 +7,4 @@ attaining_motion/       the motion that meets the bound, where the relaxation is
 closed_forms            bounds that need no solver
 prices                  what each limit costs, from the multipliers
 events                  the proof as plain data, for a checker that builds every row itself
-velocity_acceleration   another bound, without jerk limits: what ``proofs.family`` proves of a B-spline
 """
