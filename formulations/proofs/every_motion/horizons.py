@@ -32,6 +32,7 @@ from formulations.proofs.every_motion.relaxation.linear_program import (
     LPSolution,
     LPStatus,
 )
+from formulations.proofs.every_motion.relaxation.propagation import propagate
 from formulations.proofs.every_motion.relaxation.relaxed_problem import RelaxedProblem
 from formulations.proofs.every_motion.relaxation.rows import Frame
 from formulations.proofs.every_motion.relaxation.tightening import tighten
@@ -198,7 +199,7 @@ class HorizonSearch:
                 return None, boxes
             if stalled and self.seconds - before < _STALLED * (horizon - before):
                 return None, boxes
-            narrower = tighten(program, solution, deadline)
+            narrower = propagate(relaxed, tighten(program, solution, deadline))
             self.cuts = program.cuts
             stalled = narrower.width > (1.0 - _STALLED) * boxes.width
             boxes = narrower
@@ -217,7 +218,7 @@ class HorizonSearch:
         others = durations[:, 0].sum() - durations[:, 0]
         durations[:, 1] = np.minimum(durations[:, 1], relaxed.horizon * (1.0 + 1e-12) - others)
         empty = bool((durations[:, 0] > durations[:, 1]).any())
-        return Boxes(durations, np.clip(boxes.accelerations, -most, most), empty)
+        return propagate(relaxed, Boxes(durations, np.clip(boxes.accelerations, -most, most), empty))
 
     def certify(self, deadline: Deadline) -> tuple[float, float, list[list[Any]]]:
         """Prove a bound near the best one again, so that a checker can follow it.
