@@ -199,8 +199,7 @@ class HorizonSearch:
                 return None, boxes
             if stalled and self.seconds - before < _STALLED * (horizon - before):
                 return None, boxes
-            narrower = propagate(relaxed, tighten(program, solution, deadline))
-            self.cuts = program.cuts
+            narrower, self.cuts = tighten(program, solution, deadline)
             stalled = narrower.width > (1.0 - _STALLED) * boxes.width
             boxes = narrower
         self._improve(horizon)

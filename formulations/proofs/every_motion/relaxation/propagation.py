@@ -26,7 +26,7 @@ from formulations.problem.arrays import Array
 from formulations.proofs.every_motion.relaxation.boxes import Boxes
 from formulations.proofs.every_motion.relaxation.relaxed_problem import RelaxedProblem
 
-_ROUNDING = 64.0 * 2.0**-53  # of the sum of all terms' moduli: more than their roundings
+_ROUNDING = 32.0 * 2.0**-53  # of the sum of all terms' moduli: more than their roundings
 
 
 def propagate(relaxed: RelaxedProblem, boxes: Boxes) -> Boxes:

@@ -28,14 +28,12 @@ Mathematical Programming 10, pp. 147-175.
 
 from __future__ import annotations
 
-from dataclasses import dataclass
-
 import numpy as np
-from scipy.sparse import csr_array, vstack
 
 from formulations.problem.arrays import Array, Indices, Truths
 from formulations.proofs.every_motion.relaxation.boxes import Boxes
 from formulations.proofs.every_motion.relaxation.cuts import PEAKS, PRODUCTS, STOPS, Cuts, Kind
+from formulations.proofs.every_motion.relaxation.inequalities import Rows, Terms
 from formulations.proofs.every_motion.relaxation.reach import (
     distance_coefficients,
     speed_coefficients,
@@ -44,102 +42,7 @@ from formulations.proofs.every_motion.relaxation.reach import (
 from formulations.proofs.every_motion.relaxation.relaxed_problem import DOWN, UP, RelaxedProblem
 
 _ALLOWANCE = 64.0 * 2.0**-53
-_LARGEST = 2.0**36  # coefficients below this are not scaled; HiGHS refuses those above 1e15
-
-
-@dataclass(frozen=True)
-class Rows:
-    """Rows matrix x <= upper.
-
-    Attributes
-    ----------
-    matrix : csr_array, shape (m, size)
-    upper : Array, shape (m,)
-    scale : Array, shape (m,)
-        The power of two by which each row, as the equations above have it, was multiplied.
-    largest : Array, shape (m,)
-        The largest modulus of a coefficient in each row.
-    """
-
-    matrix: csr_array
-    upper: Array
-    scale: Array
-    largest: Array
-
-    def __len__(self) -> int:
-        return len(self.upper)
-
-    def __getitem__(self, which: Indices | Truths) -> Rows:
-        return Rows(self.matrix[which], self.upper[which], self.scale[which], self.largest[which])
-
-    @property
-    def finite(self) -> Truths:
-        """Which rows consist of finite numbers, (m,)."""
-        return np.asarray(np.isfinite(self.largest) & np.isfinite(self.upper))
-
-    @staticmethod
-    def joined(blocks: list[Rows]) -> Rows:
-        """Put several blocks below one another.
-
-        Parameters
-        ----------
-        blocks : list of Rows
-
-        Returns
-        -------
-        Rows
-        """
-        matrix = csr_array(vstack([block.matrix for block in blocks], format="csr"))
-        columns = [[b.upper, b.scale, b.largest] for b in blocks]
-        return Rows(matrix, *(np.concatenate(column) for column in zip(*columns, strict=True)))
-
-
-@dataclass(frozen=True)
-class Terms:
-    """Rows of one kind, not yet a matrix.
-
-    Attributes
-    ----------
-    columns : Indices, shape (m, w)
-    coefficients : Array, shape (m, w)
-    upper, scale, largest : Array, shape (m,)
-        As of ``Rows``.
-    """
-
-    columns: Indices
-    coefficients: Array
-    upper: Array
-    scale: Array
-    largest: Array
-
-    def normal(self) -> Terms:
-        """The same rows with largest coefficients between 1 and 2: powers of two do not round."""
-        return self._scaled(np.exp2(-np.floor(np.log2(self.largest))))
-
-    def in_range(self) -> Terms:
-        """The same rows, made ``normal`` where a coefficient is too large for the solver."""
-        high = (self.largest > _LARGEST) & np.isfinite(self.largest)
-        if not high.any():
-            return self
-        return self._scaled(np.where(high, np.exp2(-np.floor(np.log2(self.largest))), 1.0))
-
-    def _scaled(self, scale: Array) -> Terms:
-        each = self.upper * scale, self.scale * scale, self.largest * scale
-        return Terms(self.columns, self.coefficients * scale[:, None], *each)
-
-    def violated(self, x: Array, tolerance: float) -> Truths:
-        """Which rows of finite numbers a point violates by more than a tolerance, (m,)."""
-        excess = (self.coefficients * x[self.columns]).sum(axis=1) - self.upper
-        finite = np.isfinite(self.largest) & np.isfinite(self.upper)
-        return np.asarray(finite & (excess > tolerance))
-
-    def rows(self, size: int) -> Rows:
-        """The same rows as a matrix of ``size`` columns."""
-        m, w = self.columns.shape
-        starts = np.arange(0, m * w + 1, w)
-        entries = self.coefficients.ravel(), self.columns.ravel(), starts
-        matrix = csr_array(entries, shape=(m, size))
-        return Rows(matrix, self.upper, self.scale, self.largest)
+_WIDEST = 7  # coefficients of a row, but (5)
 
 
 class Frame:
@@ -232,12 +135,15 @@ class Frame:
         -------
         Rows
         """
-        blocks, order = [], []
+        columns, a = np.zeros((len(cuts), _WIDEST), dtype=np.intp), np.zeros((len(cuts), _WIDEST))
+        each = np.zeros((3, len(cuts)))
         for kind in np.unique(cuts.kind):
             which = np.flatnonzero(cuts.kind == kind)
-            blocks.append(self.terms(Kind(int(kind)), cuts[which]).rows(self.size))
-            order.append(which)
-        return Rows.joined(blocks)[np.argsort(np.concatenate(order))]
+            found = self.terms(Kind(int(kind)), cuts[which])
+            width = found.columns.shape[1]
+            columns[which, :width], a[which, :width] = found.columns, found.coefficients
+            each[:, which] = found.upper, found.scale, found.largest
+        return Terms(columns, a, *each).rows(self.size)
 
     def terms(self, kind: Kind, cuts: Cuts) -> Terms:
         """Compute the rows of cuts that are all of one kind.

@@ -38,7 +38,9 @@ def separate(frame: Frame, x: Array, tolerance: float) -> Cuts:
     """
     proposed = [*_durations(frame, x), *_products(frame), *_peaks(frame, x)]
     proposed += [*_reach(frame, x), *_stops(frame, x)]
-    kept = [cuts[frame.terms(kind, cuts).violated(x, tolerance)] for kind, cuts in proposed if len(cuts)]
+    kept = [
+        cuts[frame.terms(kind, cuts).violated(x, tolerance)] for kind, cuts in proposed if len(cuts)
+    ]
     return Cuts.joined([Cuts.none(), *kept])
 
 
@@ -105,7 +107,7 @@ def _stops(frame: Frame, x: Array) -> Iterator[Proposal]:
             continue
         # the joint goes towards the limit, or comes from there where time is reversed
         turned = -1.0 if kind.end else 1.0
-        sign = turned * (2.0 * side - 1.0)
+        sign = turned * np.where(side == 1, 1.0, -1.0)
         v, W = sign * x[frame.v[k + kind.end, j]], turned * sign * x[frame.W[k, j, kind.end]]
         A = np.maximum(frame.ramp[k, j] * x[frame.T[k]], 1e-300)
         two = soonest_stop(v, W * frame.ramp[k, j], A, jerk[k, j])
