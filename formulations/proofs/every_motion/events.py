@@ -34,11 +34,12 @@ from formulations.proofs.every_motion.relaxation.linear_program import LinearPro
 from formulations.proofs.every_motion.relaxation.propagation import propagate
 from formulations.proofs.every_motion.relaxation.relaxed_problem import DOWN, UP, RelaxedProblem
 from formulations.proofs.every_motion.relaxation.rows import Frame
-from formulations.proofs.every_motion.relaxation.tightening import tighten
+from formulations.proofs.every_motion.relaxation.tightening import FEW, MANY, tighten
 
 Event = list[Any]
 _ROUNDS, _TOLERANCE = 100, 1e-9  # of cuts
 _STEPS = 30  # of narrower boxes
+_SLOW = 0.1  # of the way to the target: a step that gains less needs better bounds
 _MARGIN = 1e-10  # of the bound, for the checker's own boxes and rows
 
 
@@ -73,6 +74,7 @@ def bound_with_events(
     record.renewed()
     narrowing = record.events
     best: tuple[float, list[Event]] = (0.0, [])
+    before, rounds = 0.0, FEW
     for _ in range(_STEPS):
         frame = Frame(relaxed, boxes, units)
         program = LinearProgram(frame, cuts, for_checker=True)
@@ -84,7 +86,9 @@ def bound_with_events(
             best = bound, [*narrowing, ["F", _rows_of(program, solution.multipliers)]]
         if best[0] >= target or deadline.over:
             break
-        boxes, cuts = tighten(program, solution, deadline, record)
+        slow = bound - before < _SLOW * (target - before)
+        before, rounds = bound, MANY if slow else rounds
+        boxes, cuts = tighten(program, solution, deadline, record, rounds)
         if boxes.empty:
             return horizon, narrowing  # ends with "E", or with the "P" that leaves a box empty
     return best

@@ -35,7 +35,7 @@ from formulations.proofs.every_motion.relaxation.linear_program import (
 from formulations.proofs.every_motion.relaxation.propagation import propagate
 from formulations.proofs.every_motion.relaxation.relaxed_problem import RelaxedProblem
 from formulations.proofs.every_motion.relaxation.rows import Frame
-from formulations.proofs.every_motion.relaxation.tightening import tighten
+from formulations.proofs.every_motion.relaxation.tightening import FEW, MANY, tighten
 from formulations.proofs.rest_to_rest import end_to_end_bound
 from formulations.proofs.status import BoundStatus
 
@@ -171,7 +171,7 @@ class HorizonSearch:
         boxes = self._boxes(relaxed, boxes)
         typical = self.typical[relaxed.segments]
         tolerance = min(max(1e-3 * gap, 1e-9), 1e-7)
-        stalled = False
+        stalled, rounds = False, FEW
         while not boxes.empty:
             frame = Frame(relaxed, boxes, typical)
             program = LinearProgram(frame, Cuts.joined([_tangents(boxes.durations), self.cuts]))
@@ -199,8 +199,9 @@ class HorizonSearch:
                 return None, boxes
             if stalled and self.seconds - before < _STALLED * (horizon - before):
                 return None, boxes
-            narrower, self.cuts = tighten(program, solution, deadline)
-            stalled = narrower.width > (1.0 - _STALLED) * boxes.width
+            narrower, self.cuts = tighten(program, solution, deadline, rounds=rounds)
+            stuck = narrower.width > (1.0 - _STALLED) * boxes.width
+            stalled, rounds = stuck and rounds == MANY, MANY if stuck else rounds
             boxes = narrower
         self._improve(horizon)
         return (Ending(BoundStatus.PROVED) if self._met(gap) else None), boxes

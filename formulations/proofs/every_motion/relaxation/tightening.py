@@ -24,8 +24,8 @@ from formulations.proofs.every_motion.relaxation.linear_program import LinearPro
 from formulations.proofs.every_motion.relaxation.propagation import propagate
 from formulations.proofs.every_motion.relaxation.relaxed_problem import UP
 
-# of cuts for one bound, which need not be the best one: more would not pay
-_ROUNDS, _TOLERANCE = 3, 1e-6
+FEW, MANY = 3, 15  # rounds of cuts for one bound: to begin with, and where few gain nothing
+_TOLERANCE = 1e-6
 
 
 class Record(Protocol):
@@ -39,7 +39,11 @@ class Record(Protocol):
 
 
 def tighten(
-    program: LinearProgram, solution: LPSolution, deadline: Deadline, record: Record | None = None
+    program: LinearProgram,
+    solution: LPSolution,
+    deadline: Deadline,
+    record: Record | None = None,
+    rounds: int = FEW,
 ) -> tuple[Boxes, Cuts]:
     """Narrow the boxes of a program without losing a motion, as far as the time goes.
 
@@ -52,6 +56,8 @@ def tighten(
         Of the total time.
     deadline : Deadline
     record : Record, optional
+    rounds : int
+        Of cuts for one bound.
 
     Returns
     -------
@@ -75,7 +81,7 @@ def tighten(
                 return boxes, program.cuts
             cost = np.zeros(frame.size)
             cost[column] = sign
-            found = program.solve(cost, rounds=_ROUNDS, tolerance=_TOLERANCE, deadline=deadline)
+            found = program.solve(cost, rounds=rounds, tolerance=_TOLERANCE, deadline=deadline)
             if record is not None:
                 record.narrowed(program, column, side, found)
             if found.empty:

@@ -17,9 +17,11 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 from scipy.optimize import linprog
 
+from compare.check_certificate.answers import Refused
 from compare.check_certificate.balls import R
 from compare.check_certificate.families import accelerations
-from formulations import Problem, check, free_form_bound
+from compare.check_certificate.verify import verify
+from formulations import Problem, check, free_form, free_form_bound
 from formulations.problem.arrays import Array
 from formulations.proofs.every_motion.relaxation import propagation
 from formulations.proofs.every_motion.relaxation.boxes import Boxes
@@ -138,6 +140,18 @@ def test_a_jerk_term_too_small_loses_a_motion(monkeypatch: pytest.MonkeyPatch, f
     assert lost == (factor < 1.0)
 
 
+def test_the_checker_refuses_a_proof_with_boxes_too_narrow(monkeypatch: pytest.MonkeyPatch) -> None:
+    problem = problem_of([[0.0], [0.7], [0.9], [0.1]], 1e6, 1e6, 1.0)
+    honest = free_form_bound(problem, gap=1e-3, time_limit=10.0, record=True)
+    assert "takes" in verify(honest.certificate)
+    true = propagation._upper_sides
+    monkeypatch.setattr(propagation, "_upper_sides", lambda d, J, T: true(d, 0.3 * J, T))
+    wrong = free_form_bound(problem, gap=1e-3, upper=honest.upper, time_limit=10.0, record=True)
+    assert wrong.seconds > honest.seconds * (1.0 + 1e-3)
+    with pytest.raises(Refused):
+        verify(wrong.certificate)
+
+
 def test_one_joint_that_turns_once_is_known_exactly() -> None:
     """There and back with jerk alone: jerk J, then -J until the joint is back at rest but for a, and again.
 
@@ -153,9 +167,12 @@ def test_one_joint_that_turns_once_is_known_exactly() -> None:
 
 @pytest.mark.parametrize("step", [0.1, 1e-3, 1e-6])
 def test_with_jerk_alone_time_is_the_cube_root_of_the_size(step: float) -> None:
-    shape = np.array([[0.0, 0.0], [1.0, -0.4], [0.3, 0.5], [-0.2, 1.0]])
-    bound = free_form_bound(problem_of(step * shape, 1e3, 1e5, 50.0), gap=1e-4, time_limit=30.0)
+    """And the gap closes whatever the size."""
+    shape = np.array([[0.0, 0.0], [1.0, -0.4], [0.3, 0.5]])
+    unit = free_form(problem_of(shape, 1e4, 1e6, 50.0), tolerance=1e-6).seconds
+    scaled = problem_of(step * shape, 1e3, 1e5, 50.0)
+    found = free_form(scaled, tolerance=1e-6).seconds
+    assert found == pytest.approx(unit * step ** (1.0 / 3.0), rel=1e-5)
+    bound = free_form_bound(scaled, gap=1e-4, upper=found, time_limit=60.0)
     assert bound.gap is not None
     assert bound.gap <= 1e-4
-    unit = free_form_bound(problem_of(shape, 1e3, 1e5, 50.0), gap=1e-4, time_limit=30.0)
-    assert bound.seconds == pytest.approx(unit.seconds * step ** (1.0 / 3.0), rel=2e-4)
