@@ -17,7 +17,7 @@ import numpy as np
 
 from formulations.problem.arrays import Array, Truths
 
-_STEPS = 6  # of Newton's method, enough for a cut
+_STEPS = 12  # of Newton's method, enough for a cut
 
 
 def farthest(
