@@ -40,7 +40,8 @@ from formulations.proofs.rest_to_rest import end_to_end_bound
 from formulations.proofs.status import BoundStatus
 
 _BEYOND = 1e-6  # the horizon is longer than the known motion by this, so that the motion is inside
-_AHEAD = 0.1  # of the bound: how far above it a horizon is at most
+_FAR = 0.25  # of the bound: the known motion is no horizon while it is farther above
+_AHEAD = 0.1  # of the bound: how far above it the horizon is then
 _ROUNDS = 100  # of cuts
 _TANGENTS = 4  # for each duration to begin with
 _LOOSER = 1e-2  # durations to begin with are looser, so that rows and not boxes carry the bound
@@ -147,11 +148,13 @@ class HorizonSearch:
         """Try horizon after horizon: a longer one when none of its motions is left, else a shorter one."""
         ahead, boxes = np.inf, None
         while True:
-            horizon = min(self.known * (1.0 + _BEYOND), self.seconds * (1.0 + ahead))
+            horizon = self.known * (1.0 + _BEYOND)
+            if ahead < _AHEAD or horizon > self.seconds * (1.0 + _FAR):
+                horizon = min(horizon, self.seconds * (1.0 + ahead))
             ending, boxes = self._within(horizon, boxes, gap, deadline)
             if ending is not None:
                 return ending
-            if horizon > self.seconds * (1.0 + _AHEAD):
+            if horizon > self.seconds * (1.0 + _FAR):
                 ahead = _AHEAD
                 continue
             if self.seconds >= horizon:
@@ -195,7 +198,7 @@ class HorizonSearch:
                 return _out_of_time(deadline), boxes
             if self.seconds >= horizon:
                 break
-            if horizon > self.seconds * (1.0 + _AHEAD):
+            if horizon > self.seconds * (1.0 + _FAR):
                 return None, boxes
             if stalled and self.seconds - before < _STALLED * (horizon - before):
                 return None, boxes

@@ -100,13 +100,34 @@ class Terms:
         return Terms(self.columns, self.coefficients * scale[:, None], *each)
 
     def violated(self, x: Array, tolerance: float) -> Truths:
-        """Which rows of finite numbers a point violates by more than a tolerance, (m,)."""
+        """Find the rows of finite numbers that a point violates.
+
+        Parameters
+        ----------
+        x : Array, shape (size,)
+        tolerance : float
+            By more than this.
+
+        Returns
+        -------
+        Truths, shape (m,)
+        """
         excess = (self.coefficients * x[self.columns]).sum(axis=1) - self.upper
         finite = np.isfinite(self.largest) & np.isfinite(self.upper)
         return np.asarray(finite & (excess > tolerance))
 
     def rows(self, size: int) -> Rows:
-        """The same rows as a matrix of ``size`` columns."""
+        """Put the rows into a sparse matrix.
+
+        Parameters
+        ----------
+        size : int
+            Number of columns.
+
+        Returns
+        -------
+        Rows
+        """
         there = self.coefficients != 0.0
         starts = np.concatenate([[0], np.cumsum(there.sum(axis=1))])
         entries = self.coefficients[there], self.columns[there], starts
