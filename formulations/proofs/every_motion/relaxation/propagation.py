@@ -27,6 +27,8 @@ from formulations.proofs.every_motion.relaxation.boxes import Boxes
 from formulations.proofs.every_motion.relaxation.relaxed_problem import RelaxedProblem
 
 _ROUNDING = 32.0 * 2.0**-53  # of the sum of all terms' moduli: more than their roundings
+_UNDERFLOW = 1e-300  # more than what is lost of numbers next to 0
+_SMALL = 1e-280  # a denominator above this has all its digits
 
 
 def propagate(relaxed: RelaxedProblem, boxes: Boxes) -> Boxes:
@@ -77,8 +79,9 @@ def _upper_sides(d: Array, J: Array, durations: Array) -> Array:
     ways = [2.0 * d[1:, :, None, None] * product(1, 0), -2.0 * d[:-1, :, None, None] * product(0, 1)]
     jerk = J[:, None, None] / 3.0 * (product(3, 1) + product(1, 3))
     sizes = abs(ways[0]) + abs(ways[1]) + jerk
-    tops = (ways[0] + ways[1] + jerk + _ROUNDING * sizes) / (product(2, 1) + product(1, 2))
-    return np.asarray(tops.max(axis=(2, 3)))
+    below = product(2, 1) + product(1, 2)
+    tops = (ways[0] + ways[1] + jerk + _ROUNDING * sizes + _UNDERFLOW) / below
+    return np.where(below > _SMALL, tops, np.inf).max(axis=(2, 3))
 
 
 def _powers(low: Array, high: Array) -> list[Array]:
@@ -94,6 +97,6 @@ def _powers(low: Array, high: Array) -> list[Array]:
 
 def _follow(mine: Array, other: Array, change: Array) -> None:
     """Narrow the intervals (n, 2) at one end of a segment, in place, by those at its other end."""
-    margin = change + _ROUNDING * (np.abs(other).max(axis=1) + change)
+    margin = change + _ROUNDING * (np.abs(other).max(axis=1) + change) + _UNDERFLOW
     mine[:, 0] = np.fmax(mine[:, 0], other[:, 0] - margin)
     mine[:, 1] = np.fmin(mine[:, 1], other[:, 1] + margin)

@@ -10,6 +10,7 @@ import pytest
 from every_motion_helpers import (
     exact,
     problem_of,
+    splined,
     stopping,
     through_states,
 )
@@ -176,3 +177,38 @@ def test_with_jerk_alone_time_is_the_cube_root_of_the_size(step: float) -> None:
     bound = free_form_bound(scaled, gap=1e-4, upper=found, time_limit=60.0)
     assert bound.gap is not None
     assert bound.gap <= 1e-4
+
+
+@given(
+    seed=st.integers(0, 10**6),
+    step=st.floats(-6.0, -1.0),
+    n=st.integers(1, 7),
+    dof=st.integers(1, 6),
+    jerk=st.sampled_from([5.0, 50.0, 5e4]),
+)
+@settings(max_examples=12, deadline=None)
+def test_no_verified_motion_is_faster_than_the_bound(
+    seed: int, step: float, n: int, dof: int, jerk: float
+) -> None:
+    """Short segments, where jerk is the only limit that counts and where it is one of three."""
+    rng = np.random.default_rng(seed)
+    steps = 10.0**step * rng.uniform(0.1, 1.0, (n, dof)) * rng.choice([-1.0, 1.0], (n, dof))
+    problem = problem_of(np.cumsum(np.vstack([np.zeros(dof), steps]), axis=0), 0.5, 2.0, jerk)
+    found = free_form(problem, tolerance=1e-5)
+    bound = free_form_bound(problem, gap=1e-4, upper=found.seconds, time_limit=1.0)
+    motions = [found.trajectory, stopping(problem)]
+    motions += [splined(problem, family, rng) for family in ("quintic", "b-spline-5")]
+    for motion in motions:
+        assert motion is not None
+        verdict = check(problem, motion)
+        assert not verdict.feasible or bound.least_verified <= verdict.seconds
+
+
+@pytest.mark.parametrize("size", [1e-130, 1e-100, 1e-60, 1e60, 1e130])
+def test_numbers_that_underflow_or_overflow_lose_no_motion(size: float) -> None:
+    """The steepest acceleration of two equal segments is J T / 3 + (e - d) / T^2, whatever the unit."""
+    T = size ** (1.0 / 3.0)
+    durations = np.array([[T, T], [T, T]])
+    with np.errstate(all="ignore"):
+        top = propagation._upper_sides(np.array([[size], [-size]]), np.array([30.0]), durations)[0, 0]
+    assert not top < (-2.0 + 10.0) * T * (1.0 - 1e-13)
