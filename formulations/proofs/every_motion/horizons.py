@@ -40,7 +40,7 @@ from formulations.proofs.rest_to_rest import end_to_end_bound
 from formulations.proofs.status import BoundStatus
 
 _BEYOND = 1e-6  # the horizon is longer than the known motion by this, so that the motion is inside
-_FAR = 0.25  # of the bound: the known motion is no horizon while it is farther above
+_FAR = 0.15  # of the bound: the known motion is no horizon while it is farther above
 _AHEAD = 0.1  # of the bound: how far above it the horizon is then
 _ROUNDS = 100  # of cuts
 _TANGENTS = 4  # for each duration to begin with
