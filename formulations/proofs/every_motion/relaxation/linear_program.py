@@ -124,6 +124,8 @@ class LinearProgram:
         self.highs = highspy.Highs()
         for option, value in _OPTIONS.items():
             self.highs.setOptionValue(option, value)
+        # the simplex method may cycle from an old basis: then the next attempt starts from scratch
+        self.highs.setOptionValue("simplex_iteration_limit", 5_000 + 50 * frame.size)
         self._refused = False
         self._note(self.highs.addVars(frame.size, frame.box[:, 0].copy(), frame.box[:, 1].copy()))
         self.rows = frame.fixed()
