@@ -141,6 +141,8 @@ def extremes() -> Iterator[Problem]:
         "two waypoints": (drawn(2, 6), Limits.of(*usual, dof=6)),
         "no jerk limit": (drawn(10, 6), Limits.of(2, 5, dof=6)),
         "some limits missing": (drawn(5, 3), Limits.of(1, [2, np.inf, 3], [9, np.inf, np.inf], dof=3)),
+        "displacements of 1e-4 rad": (decades(-4, -4, 5, 6), Limits.of(*usual, dof=6)),
+        "displacements of 0.01 rad": (decades(-2, -2, 5, 6), Limits.of(*usual, dof=6)),
     }
     for name, (waypoints, limits) in kinds.items():
         yield Problem.of(waypoints, limits, name=name)

@@ -12,7 +12,8 @@ obey, for any places named in a row (s1 .. s6 ascending in [0, 1]) and while T i
     d   d u <= z v0 + p W0 + (1 - y) v1 - o W1 + (y - z) V + m A T + g J q
 
 with the p, g, z, y, o, m of ``_distance``. For multipliers >= 0, the cost plus the weighted sum of the
-rows is linear in bounded variables: its least value is a lower bound of the cost.
+rows is linear in bounded variables: its least value is a lower bound of the cost. The module
+``accelerations`` narrows e and f without a sum.
 """
 
 from __future__ import annotations
@@ -23,6 +24,7 @@ from typing import Any
 from compare.check_certificate.answers import BadInput, Refused, need
 from compare.check_certificate.balls import R, least, most
 from compare.check_certificate.claim import Claim, index, items, number
+from compare.check_certificate.families.accelerations import greatest
 
 MOST_ROWS = 1_000_000
 WIDTHS = {"h": 2, "s": 3, "t": 4, "c": 4, "w": 6, "v": 7, "a": 7, "r": 8, "d": 11, "k": 11}
@@ -92,7 +94,9 @@ class Relaxation:
         for place, raw in enumerate(self.claim.events, 1):
             event, where = items(raw, 1, 6), f"event {place}"
             letter = str(event[0])
-            if letter == "R":
+            if letter in ("R", "P"):
+                if letter == "P" and self._propagate(pending):
+                    return count  # nothing is left
                 self.boxes = dict(pending)
                 continue
             rows = items(event[-1], 0, MOST_ROWS)
@@ -118,6 +122,28 @@ class Relaxation:
             else:
                 raise BadInput(f"{where}: unknown event {letter!r:.20}")
         raise Refused("the events end before the bound")
+
+    def _propagate(self, boxes: dict[Variable, tuple[Any, Any]]) -> bool:
+        """Narrow the accelerations from the durations; whether a box is then certainly empty."""
+        limited = [j for j in self.joints if self.J[j] is not None]
+        for j in limited:
+            for before, after in pairwise(self.ks):
+                d, e = self.claim.d[before][j], self.claim.d[after][j]
+                spans = self.J[j], boxes["T", before], boxes["T", after]
+                lo, hi = boxes["a", after, j]
+                lo, hi = (
+                    most(lo, (-greatest(-d, -e, *spans)).lower()),
+                    least(hi, greatest(d, e, *spans).upper()),
+                )
+                boxes["a", after, j] = lo, hi
+            # over a segment it changes by at most J T
+            ways = [(k, self.after[k], k) for k in self.ks]
+            for start, end, k in [*ways, *((end, start, k) for start, end, k in reversed(ways))]:
+                change = self.J[j] * boxes["T", k][1]
+                (low, high), (lo, hi) = boxes["a", start, j], boxes["a", end, j]
+                lo, hi = most(lo, (low - change).lower()), least(hi, (high + change).upper())
+                boxes["a", end, j] = lo, hi
+        return any(bool(lo > hi) for lo, hi in boxes.values())
 
     def _narrowed(self, event: list[Any]) -> tuple[Variable, int]:
         """The variable that an event narrows, and from which side."""

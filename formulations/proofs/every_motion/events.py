@@ -12,10 +12,11 @@ units:
     ["a", joint, segment, sign, s1, s2, y]            (2)      ["r", joint, segment, end, sign, s1, s2, y]  (3)
 
 Events: ["N", "T", segment, side, rows] or ["N", "a", waypoint, joint, side, rows] narrows a box from
-below (side 0) or from above (side 1), with effect after the next ["R"]. ["F", rows] ends with the bound,
-["E", rows] with the proof that no motion is left. Segments and joints have the numbers of the problem,
-counted from 0. Segments in which nothing moves do not occur; the waypoint where a segment starts has the
-segment's number.
+below (side 0) or from above (side 1), with effect after the next ["P"], which also narrows the
+accelerations by (13), or ["R"], which does not. ["F", rows] ends with the bound, ["E", rows] with the
+proof that no motion is left, as does an event that leaves a box empty. Segments and joints have the
+numbers of the problem, counted from 0. Segments in which nothing moves do not occur; the waypoint where a
+segment starts has the segment's number.
 """
 
 from __future__ import annotations
@@ -30,13 +31,15 @@ from formulations.problem.problem import Problem
 from formulations.proofs.every_motion.relaxation.boxes import Boxes
 from formulations.proofs.every_motion.relaxation.cuts import PEAKS, PRODUCTS, STOPS, Cuts, Kind
 from formulations.proofs.every_motion.relaxation.linear_program import LinearProgram, LPSolution
+from formulations.proofs.every_motion.relaxation.propagation import propagate
 from formulations.proofs.every_motion.relaxation.relaxed_problem import DOWN, UP, RelaxedProblem
 from formulations.proofs.every_motion.relaxation.rows import Frame
-from formulations.proofs.every_motion.relaxation.tightening import tighten
+from formulations.proofs.every_motion.relaxation.tightening import FEW, MANY, tighten
 
 Event = list[Any]
 _ROUNDS, _TOLERANCE = 100, 1e-9  # of cuts
 _STEPS = 30  # of narrower boxes
+_SLOW = 0.1  # of the way to the target: a step that gains less needs better bounds
 _MARGIN = 1e-10  # of the bound, for the checker's own boxes and rows
 
 
@@ -65,10 +68,13 @@ def bound_with_events(
     events : list
     """
     relaxed = RelaxedProblem.of(problem, horizon)
-    boxes = _first_boxes(relaxed)
+    boxes = propagate(relaxed, _first_boxes(relaxed))
     units = typical[relaxed.segments]
-    narrowing: list[Event] = []
+    record = _Events()
+    record.renewed()
+    narrowing = record.events
     best: tuple[float, list[Event]] = (0.0, [])
+    before, rounds = 0.0, FEW
     for _ in range(_STEPS):
         frame = Frame(relaxed, boxes, units)
         program = LinearProgram(frame, cuts, for_checker=True)
@@ -80,18 +86,30 @@ def bound_with_events(
             best = bound, [*narrowing, ["F", _rows_of(program, solution.multipliers)]]
         if best[0] >= target or deadline.over:
             break
-
-        def note(column: int, side: int, found: LPSolution, program: LinearProgram = program) -> None:
-            head, unit = _narrowed(program.frame, column)
-            rows = _rows_of(program, found.multipliers * unit)
-            narrowing.append(["E", rows] if found.empty else [*head, side, rows])
-
-        boxes = tighten(program, solution, deadline, note)
+        slow = bound - before < _SLOW * (target - before)
+        before, rounds = bound, MANY if slow else rounds
+        boxes, cuts = tighten(program, solution, deadline, record, rounds)
         if boxes.empty:
-            return (horizon, narrowing) if narrowing[-1][0] == "E" else best
-        narrowing.append(["R"])
-        cuts = program.cuts
+            return horizon, narrowing  # ends with "E", or with the "P" that leaves a box empty
     return best
+
+
+class _Events:
+    """The events of ``tighten``."""
+
+    def __init__(self) -> None:
+        """Begin without events."""
+        self.events: list[Event] = []
+
+    def narrowed(self, program: LinearProgram, column: int, side: int, found: LPSolution) -> None:
+        """Note what narrows a box, or proves that nothing is left."""
+        head, unit = _narrowed(program.frame, column)
+        rows = _rows_of(program, found.multipliers * unit)
+        self.events.append(["E", rows] if found.empty else [*head, side, rows])
+
+    def renewed(self) -> None:
+        """Note that the narrowed boxes count from now on."""
+        self.events.append(["P"])
 
 
 def _first_boxes(relaxed: RelaxedProblem) -> Boxes:

@@ -32,14 +32,16 @@ from formulations.proofs.every_motion.relaxation.linear_program import (
     LPSolution,
     LPStatus,
 )
+from formulations.proofs.every_motion.relaxation.propagation import propagate
 from formulations.proofs.every_motion.relaxation.relaxed_problem import RelaxedProblem
 from formulations.proofs.every_motion.relaxation.rows import Frame
-from formulations.proofs.every_motion.relaxation.tightening import tighten
+from formulations.proofs.every_motion.relaxation.tightening import FEW, MANY, tighten
 from formulations.proofs.rest_to_rest import end_to_end_bound
 from formulations.proofs.status import BoundStatus
 
 _BEYOND = 1e-6  # the horizon is longer than the known motion by this, so that the motion is inside
-_AHEAD = 0.1  # of the bound: how far above it a horizon is at most
+_FAR = 0.15  # of the bound: the known motion is no horizon while it is farther above
+_AHEAD = 0.1  # of the bound: how far above it the horizon is then
 _ROUNDS = 100  # of cuts
 _TANGENTS = 4  # for each duration to begin with
 _LOOSER = 1e-2  # durations to begin with are looser, so that rows and not boxes carry the bound
@@ -146,11 +148,13 @@ class HorizonSearch:
         """Try horizon after horizon: a longer one when none of its motions is left, else a shorter one."""
         ahead, boxes = np.inf, None
         while True:
-            horizon = min(self.known * (1.0 + _BEYOND), self.seconds * (1.0 + ahead))
+            horizon = self.known * (1.0 + _BEYOND)
+            if ahead < _AHEAD or horizon > self.seconds * (1.0 + _FAR):
+                horizon = min(horizon, self.seconds * (1.0 + ahead))
             ending, boxes = self._within(horizon, boxes, gap, deadline)
             if ending is not None:
                 return ending
-            if horizon > self.seconds * (1.0 + _AHEAD):
+            if horizon > self.seconds * (1.0 + _FAR):
                 ahead = _AHEAD
                 continue
             if self.seconds >= horizon:
@@ -170,7 +174,7 @@ class HorizonSearch:
         boxes = self._boxes(relaxed, boxes)
         typical = self.typical[relaxed.segments]
         tolerance = min(max(1e-3 * gap, 1e-9), 1e-7)
-        stalled = False
+        stalled, rounds = False, FEW
         while not boxes.empty:
             frame = Frame(relaxed, boxes, typical)
             program = LinearProgram(frame, Cuts.joined([_tangents(boxes.durations), self.cuts]))
@@ -194,13 +198,13 @@ class HorizonSearch:
                 return _out_of_time(deadline), boxes
             if self.seconds >= horizon:
                 break
-            if horizon > self.seconds * (1.0 + _AHEAD):
+            if horizon > self.seconds * (1.0 + _FAR):
                 return None, boxes
             if stalled and self.seconds - before < _STALLED * (horizon - before):
                 return None, boxes
-            narrower = tighten(program, solution, deadline)
-            self.cuts = program.cuts
-            stalled = narrower.width > (1.0 - _STALLED) * boxes.width
+            narrower, self.cuts = tighten(program, solution, deadline, rounds=rounds)
+            stuck = narrower.width > (1.0 - _STALLED) * boxes.width
+            stalled, rounds = stuck and rounds == MANY, MANY if stuck else rounds
             boxes = narrower
         self._improve(horizon)
         return (Ending(BoundStatus.PROVED) if self._met(gap) else None), boxes
@@ -217,7 +221,7 @@ class HorizonSearch:
         others = durations[:, 0].sum() - durations[:, 0]
         durations[:, 1] = np.minimum(durations[:, 1], relaxed.horizon * (1.0 + 1e-12) - others)
         empty = bool((durations[:, 0] > durations[:, 1]).any())
-        return Boxes(durations, np.clip(boxes.accelerations, -most, most), empty)
+        return propagate(relaxed, Boxes(durations, np.clip(boxes.accelerations, -most, most), empty))
 
     def certify(self, deadline: Deadline) -> tuple[float, float, list[list[Any]]]:
         """Prove a bound near the best one again, so that a checker can follow it.

@@ -4,10 +4,12 @@ relaxed_problem   the segments and joints that count, and limits that every moti
 boxes             intervals of the segment durations and waypoint accelerations
 cuts              where rows are posed: kind, segment, joint, sign and place of each
 reach             the inequalities on how far and how fast one joint gets in one segment
+inequalities      rows as terms and as a sparse matrix
 rows              the rows in numbers: coefficients, right hand sides, allowance for rounding
 switches          the motions for which the inequalities are tight: where their jerk switches
 separation        the rows that cut a given point off
 linear_program    the linear program, solved by HiGHS with rows added as they are needed
 safe_dual         the safe dual bound: valid for any multipliers and all rounding
+propagation       narrower boxes of the accelerations in closed form
 tightening        narrower boxes, each bound certified in the same way
 """

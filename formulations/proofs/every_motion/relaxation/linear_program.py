@@ -18,8 +18,10 @@ import numpy as np
 
 from formulations.deadlines import NEVER, Deadline
 from formulations.problem.arrays import Array
+from formulations.proofs.every_motion.relaxation.boxes import Boxes
 from formulations.proofs.every_motion.relaxation.cuts import Cuts
-from formulations.proofs.every_motion.relaxation.rows import Frame, Rows
+from formulations.proofs.every_motion.relaxation.inequalities import Rows
+from formulations.proofs.every_motion.relaxation.rows import Frame
 from formulations.proofs.every_motion.relaxation.safe_dual import safe_bound
 from formulations.proofs.every_motion.relaxation.separation import separate
 
@@ -43,7 +45,7 @@ _ATTEMPTS: tuple[dict[str, str | int], ...] = (
     {"presolve": "on", "simplex_scale_strategy": 4, "solver": "ipm"},
 )
 _LEAST = 1e-13  # multipliers below this share of the largest are not written down
-_CHECKERS_ROUNDING = 1e-14  # of the sum of all terms' moduli
+_CHECKERS_ROUNDING = 1e-13  # of the sum of all terms' moduli
 _FAR = 1e-7  # a row with more slack than this may be dropped
 _CROWD = 3.0  # rows per variable above which rows are dropped
 
@@ -122,6 +124,8 @@ class LinearProgram:
         self.highs = highspy.Highs()
         for option, value in _OPTIONS.items():
             self.highs.setOptionValue(option, value)
+        # the simplex method may cycle from an old basis: then the next attempt starts from scratch
+        self.highs.setOptionValue("simplex_iteration_limit", 5_000 + 50 * frame.size)
         self._refused = False
         self._note(self.highs.addVars(frame.size, frame.box[:, 0].copy(), frame.box[:, 1].copy()))
         self.rows = frame.fixed()
@@ -145,13 +149,26 @@ class LinearProgram:
             self.rows = Rows.joined([self.rows, rows])
             self.cuts = Cuts.joined([self.cuts, cuts[kept]])
 
+    def renewed(self, boxes: Boxes) -> LinearProgram:
+        """Pose the same program in other boxes.
+
+        Parameters
+        ----------
+        boxes : Boxes
+
+        Returns
+        -------
+        LinearProgram
+        """
+        frame = Frame(self.frame.relaxed, boxes, self.frame.typical)
+        return LinearProgram(frame, self.cuts, for_checker=self._for_checker)
+
     def _note(self, status: highspy.HighsStatus) -> None:
         """Remember a refusal: HiGHS then holds fewer rows than this object."""
         self._refused |= status == highspy.HighsStatus.kError
 
     def _pass(self, rows: Rows) -> None:
-        matrix = rows.matrix.copy()
-        matrix.eliminate_zeros()
+        matrix = rows.matrix
         status = self.highs.addRows(
             len(rows),
             np.full(len(rows), -np.inf),

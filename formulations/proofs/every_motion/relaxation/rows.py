@@ -28,14 +28,12 @@ Mathematical Programming 10, pp. 147-175.
 
 from __future__ import annotations
 
-from dataclasses import dataclass
-
 import numpy as np
-from scipy.sparse import csr_array, vstack
 
 from formulations.problem.arrays import Array, Indices, Truths
 from formulations.proofs.every_motion.relaxation.boxes import Boxes
 from formulations.proofs.every_motion.relaxation.cuts import PEAKS, PRODUCTS, STOPS, Cuts, Kind
+from formulations.proofs.every_motion.relaxation.inequalities import Rows, Terms
 from formulations.proofs.every_motion.relaxation.reach import (
     distance_coefficients,
     speed_coefficients,
@@ -44,69 +42,7 @@ from formulations.proofs.every_motion.relaxation.reach import (
 from formulations.proofs.every_motion.relaxation.relaxed_problem import DOWN, UP, RelaxedProblem
 
 _ALLOWANCE = 64.0 * 2.0**-53
-_LARGEST = 2.0**36  # coefficients below this are not scaled; HiGHS refuses those above 1e15
-
-
-@dataclass(frozen=True)
-class Rows:
-    """Rows matrix x <= upper.
-
-    Attributes
-    ----------
-    matrix : csr_array, shape (m, size)
-    upper : Array, shape (m,)
-    scale : Array, shape (m,)
-        The power of two by which each row, as the equations above have it, was multiplied.
-    largest : Array, shape (m,)
-        The largest modulus of a coefficient in each row.
-    """
-
-    matrix: csr_array
-    upper: Array
-    scale: Array
-    largest: Array
-
-    def __len__(self) -> int:
-        return len(self.upper)
-
-    def __getitem__(self, which: Indices | Truths) -> Rows:
-        return Rows(self.matrix[which], self.upper[which], self.scale[which], self.largest[which])
-
-    @property
-    def finite(self) -> Truths:
-        """Which rows consist of finite numbers, (m,)."""
-        return np.asarray(np.isfinite(self.largest) & np.isfinite(self.upper))
-
-    def normal(self) -> Rows:
-        """The same rows with largest coefficients between 1 and 2: powers of two do not round."""
-        return self._scaled(np.exp2(-np.floor(np.log2(self.largest))))
-
-    def in_range(self) -> Rows:
-        """The same rows, made ``normal`` where a coefficient is too large for the solver."""
-        high = (self.largest > _LARGEST) & np.isfinite(self.largest)
-        if not high.any():
-            return self
-        return self._scaled(np.where(high, np.exp2(-np.floor(np.log2(self.largest))), 1.0))
-
-    def _scaled(self, scale: Array) -> Rows:
-        matrix = csr_array(self.matrix.multiply(scale[:, None]))
-        return Rows(matrix, self.upper * scale, self.scale * scale, self.largest * scale)
-
-    @staticmethod
-    def joined(blocks: list[Rows]) -> Rows:
-        """Put several blocks below one another.
-
-        Parameters
-        ----------
-        blocks : list of Rows
-
-        Returns
-        -------
-        Rows
-        """
-        matrix = csr_array(vstack([block.matrix for block in blocks], format="csr"))
-        columns = [[b.upper, b.scale, b.largest] for b in blocks]
-        return Rows(matrix, *(np.concatenate(column) for column in zip(*columns, strict=True)))
+_WIDEST = 7  # coefficients of a row, but (5)
 
 
 class Frame:
@@ -186,7 +122,7 @@ class Frame:
         total = self._rows([np.array([column]) for column in self.T], share, np.ones(1))
         columns = [self.inverse, self.T]
         secants = self._rows(columns, [one, 1.0 / (low * high)], 1.0 / low + 1.0 / high).normal()
-        return Rows.joined([total, secants])
+        return Rows.joined([total.rows(self.size), secants.rows(self.size)])
 
     def of(self, cuts: Cuts) -> Rows:
         """Compute one row for each cut, in the order of the table.
@@ -199,14 +135,31 @@ class Frame:
         -------
         Rows
         """
-        blocks, order = [], []
+        columns, a = np.zeros((len(cuts), _WIDEST), dtype=np.intp), np.zeros((len(cuts), _WIDEST))
+        each = np.zeros((3, len(cuts)))
         for kind in np.unique(cuts.kind):
             which = np.flatnonzero(cuts.kind == kind)
-            blocks.append(self._of_kind(Kind(int(kind)), cuts[which]))
-            order.append(which)
-        return Rows.joined(blocks)[np.argsort(np.concatenate(order))].in_range()
+            found = self.terms(Kind(int(kind)), cuts[which])
+            width = found.columns.shape[1]
+            columns[which, :width], a[which, :width] = found.columns, found.coefficients
+            each[:, which] = found.upper, found.scale, found.largest
+        return Terms(columns, a, *each).rows(self.size)
 
-    def _of_kind(self, kind: Kind, cuts: Cuts) -> Rows:
+    def terms(self, kind: Kind, cuts: Cuts) -> Terms:
+        """Compute the rows of cuts that are all of one kind.
+
+        Parameters
+        ----------
+        kind : Kind
+        cuts : Cuts
+
+        Returns
+        -------
+        Terms
+        """
+        return self._of_kind(kind, cuts).in_range()
+
+    def _of_kind(self, kind: Kind, cuts: Cuts) -> Terms:
         if kind in (Kind.TANGENT, Kind.HULL):
             return self._of_duration(kind, cuts)
         if kind in PRODUCTS:
@@ -231,7 +184,7 @@ class Frame:
         k = cuts.segment
         return np.asarray(np.clip(cuts.at[:, 0] / self.typical[k], self.low[k], self.high[k]))
 
-    def _of_duration(self, kind: Kind, cuts: Cuts) -> Rows:
+    def _of_duration(self, kind: Kind, cuts: Cuts) -> Terms:
         k, t, one = cuts.segment, self.place(cuts), np.ones(len(cuts))
         if kind == Kind.TANGENT:
             return self._rows([self.T[k], self.inverse[k]], [-1.0 / t**2, -one], -2.0 / t).normal()
@@ -240,13 +193,13 @@ class Frame:
         a = [one, -(h + 2.0 * t), -h * t**2]
         return self._rows(columns, a, -(2.0 * h * t + t**2)).normal()
 
-    def _product(self, end: int, cuts: Cuts) -> Rows:
+    def _product(self, end: int, cuts: Cuts) -> Terms:
         k, j = cuts.segment, cuts.joint
         t, e, side = self.corner(cuts, end)
         columns = [self.W[k, j, end], self.a[k + end, j], self.T[k]]
         return self._rows(columns, [-side, side * t, side * e], side * t * e)
 
-    def _peak(self, end: int, cuts: Cuts) -> Rows:
+    def _peak(self, end: int, cuts: Cuts) -> Terms:
         k, j = cuts.segment, cuts.joint
         _require(self.relaxed.has_jerk[j])
         c = cuts.at[:, 0] * self.typical[k] / self.relaxed.acceleration[j]
@@ -254,7 +207,7 @@ class Frame:
         columns = [self.v[k + end, j], self.W[k, j, end], self.square[k]]
         return self._rows(columns, [cuts.sign, share * c, -0.5 * share * c**2], np.ones(len(cuts)))
 
-    def _stop(self, end: int, cuts: Cuts) -> Rows:
+    def _stop(self, end: int, cuts: Cuts) -> Terms:
         k, j, sign = cuts.segment, cuts.joint, cuts.sign
         c_v, c_W, c_A, c_J = stop_coefficients(cuts.at[:, :2])
         # with time turned W changes its sign, and the joint comes from where it would go
@@ -266,7 +219,7 @@ class Frame:
         a = [sign * c_v, sign * c_W * ramp, -room, -c_A * ramp, -c_J * bend]
         return self._rows(columns, a, np.zeros(len(k)))
 
-    def _speed(self, cuts: Cuts) -> Rows:
+    def _speed(self, cuts: Cuts) -> Terms:
         k, j, sign = cuts.segment, cuts.joint, cuts.sign
         c_W0, c_W1, c_A, c_J = speed_coefficients(cuts.at[:, :2])
         _require(self.relaxed.has_jerk[j] | (c_J == 0.0))
@@ -275,7 +228,7 @@ class Frame:
         a = [sign, -sign, -sign * c_W0 * ramp, -sign * c_W1 * ramp, -c_A * ramp, -c_J * bend]
         return self._rows([*columns, self.T[k], self.square[k]], a, np.zeros(len(k)))
 
-    def _distance(self, cruises: bool, cuts: Cuts) -> Rows:
+    def _distance(self, cruises: bool, cuts: Cuts) -> Terms:
         k, j, sign = cuts.segment, cuts.joint, cuts.sign
         c_v0, c_W0, c_v1, c_W1, c_V, c_A, c_J = distance_coefficients(cuts.at, cruises)
         _require(self.relaxed.has_jerk[j] | (c_J == 0.0))
@@ -305,14 +258,13 @@ class Frame:
         e = np.where(upper, self.most_a[k + end, j], self.least_a[k + end, j])
         return t, e, np.where(corner < 2, 1.0, -1.0)
 
-    def _rows(self, columns: list[Indices], coefficients: list[Array], upper: Array) -> Rows:
+    def _rows(self, columns: list[Indices], coefficients: list[Array], upper: Array) -> Terms:
         """Rows of w coefficients each, with the allowance for rounding; ``columns[i]`` is (m,)."""
         where, a = np.stack(columns, axis=1), np.stack(coefficients, axis=1)
-        size = (np.abs(a) * self._sizes[where]).sum(axis=1) + np.abs(upper)
-        starts = np.arange(0, a.size + 1, a.shape[1])
-        matrix = csr_array((a.ravel(), where.ravel(), starts), shape=(len(upper), self.size))
-        largest = np.abs(a).max(axis=1, initial=0.0)
-        return Rows(matrix, upper + _ALLOWANCE * size, np.ones(len(upper)), largest)
+        moduli = np.abs(a)
+        size = (moduli * self._sizes[where]).sum(axis=1) + np.abs(upper)
+        largest = moduli.max(axis=1, initial=0.0)
+        return Terms(where, a, upper + _ALLOWANCE * size, np.ones(len(upper)), largest)
 
 
 def _require(sound: Truths) -> None:

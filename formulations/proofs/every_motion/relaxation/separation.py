@@ -5,6 +5,8 @@ Of each kind that row is proposed which the point violates most; those that it v
 
 from __future__ import annotations
 
+from collections.abc import Iterator
+
 import numpy as np
 
 from formulations.problem.arrays import Array, Indices
@@ -16,6 +18,8 @@ from formulations.proofs.every_motion.relaxation.switches import (
     fastest,
     soonest_stop,
 )
+
+Proposal = tuple[Kind, Cuts]  # cuts that are all of this kind
 
 
 def separate(frame: Frame, x: Array, tolerance: float) -> Cuts:
@@ -32,55 +36,51 @@ def separate(frame: Frame, x: Array, tolerance: float) -> Cuts:
     -------
     Cuts
     """
-    proposed = [_durations(frame, x), *_products(frame), *_peaks(frame, x)]
-    for sign in (1.0, -1.0):
-        proposed += [*_reach(frame, x, sign), *_stops(frame, x, sign)]
-    cuts = Cuts.joined(proposed)
-    rows = frame.of(cuts)
-    return cuts[rows.finite & (rows.matrix @ x - rows.upper > tolerance)]
+    proposed = [*_durations(frame, x), *_products(frame), *_peaks(frame, x)]
+    proposed += [*_reach(frame, x), *_stops(frame, x)]
+    kept = [
+        cuts[frame.terms(kind, cuts).violated(x, tolerance)] for kind, cuts in proposed if len(cuts)
+    ]
+    return Cuts.joined([Cuts.none(), *kept])
 
 
-def _durations(frame: Frame, x: Array) -> Cuts:
+def _durations(frame: Frame, x: Array) -> Iterator[Proposal]:
     """Rows (7) at T itself, rows (8) at their deepest: t = (h - T) / (h / T - 1)."""
     T, inverse, h = x[frame.T], x[frame.inverse], frame.high
     t = (h - T) / np.maximum(h * inverse - 1.0, 1e-300)
     k = np.arange(frame.K)
-    at = np.concatenate([T, np.clip(t, frame.low, h)]) * np.tile(frame.typical, 2)
-    return Cuts.of(np.repeat([Kind.TANGENT, Kind.HULL], frame.K), np.tile(k, 2), at)
+    for kind, at in ((Kind.TANGENT, T), (Kind.HULL, np.clip(t, frame.low, h))):
+        yield kind, Cuts.of(kind, k, at * frame.typical)
 
 
-def _products(frame: Frame) -> list[Cuts]:
+def _products(frame: Frame) -> Iterator[Proposal]:
     """Rows (9) in all four corners, except at both ends of the motion, where a = 0."""
     joints = np.flatnonzero(frame.relaxed.has_jerk)
-    found = []
     for kind in PRODUCTS:
         k, j = _grid(frame.K, joints)
         inner = (k + kind.end > 0) & (k + kind.end < frame.K)
         k, j = np.tile(k[inner], 4), np.tile(j[inner], 4)
-        found.append(Cuts.of(kind, k, np.repeat(np.arange(4.0), inner.sum()), j))
-    return found
+        yield kind, Cuts.of(kind, k, np.repeat(np.arange(4.0), inner.sum()), j)
 
 
-def _peaks(frame: Frame, x: Array) -> list[Cuts]:
+def _peaks(frame: Frame, x: Array) -> Iterator[Proposal]:
     """Rows (10) at the ratio W / T^2 of the point."""
     joints = np.flatnonzero(frame.relaxed.has_jerk)
-    found = []
     for kind in PEAKS:
         k, j = _grid(frame.K, joints)
         unit = frame.relaxed.acceleration[j] / frame.typical[k]
         at = x[frame.W[k, j, kind.end]] / x[frame.square[k]] * unit
-        found.append(Cuts.of(kind, k, at, j, np.sign(x[frame.v[k + kind.end, j]])))
-    return found
+        yield kind, Cuts.of(kind, k, at, j, np.sign(x[frame.v[k + kind.end, j]]))
 
 
-def _reach(frame: Frame, x: Array, sign: float) -> list[Cuts]:
+def _reach(frame: Frame, x: Array) -> Iterator[Proposal]:
     """Rows (1) and (2) at the switches of the motion that goes farthest or gains most speed."""
     has_jerk = frame.relaxed.has_jerk
-    found = []
     for limited in (True, False):
         k, j = _grid(frame.K, np.flatnonzero(has_jerk == limited))
         if not len(k):
             continue
+        k, j, sign = np.tile(k, 2), np.tile(j, 2), np.repeat((1.0, -1.0), len(k))
         ramp, J = frame.ramp[k, j], frame.bend[k, j] * x[frame.square[k]]
         v0, v1 = sign * x[frame.v[k, j]], sign * x[frame.v[k + 1, j]]
         W0, W1 = (sign * ramp * x[frame.W[k, j, end]] for end in (0, 1))
@@ -92,25 +92,26 @@ def _reach(frame: Frame, x: Array, sign: float) -> list[Cuts]:
         else:
             six, cruises = farthest_without_jerk(v0, v1, top, A)
             two = np.stack([0.0 * A, top], axis=1)
-        found.append(Cuts.of(np.where(cruises, Kind.CRUISE, Kind.DISTANCE), k, six, j, sign))
-        found.append(Cuts.of(Kind.SPEED, k, two, j, sign))
-    return found
+        for kind, which in ((Kind.CRUISE, cruises), (Kind.DISTANCE, ~cruises)):
+            yield kind, Cuts.of(kind, k[which], six[which], j[which], sign[which])
+        yield Kind.SPEED, Cuts.of(Kind.SPEED, k, two, j, sign)
 
 
-def _stops(frame: Frame, x: Array, sign: float) -> list[Cuts]:
+def _stops(frame: Frame, x: Array) -> Iterator[Proposal]:
     """Rows (3) at the switches of the soonest stop, where there is a position limit."""
-    found = []
     jerk = np.where(frame.relaxed.has_jerk, frame.bend, np.inf) * x[frame.square][:, None]
     for kind in STOPS:
-        side = int((sign > 0.0) != bool(kind.end))
-        room = frame.room[kind.end : frame.K + kind.end, :, side]
-        k, j = np.nonzero(np.isfinite(room))
+        room = frame.room[kind.end : frame.K + kind.end]
+        k, j, side = np.nonzero(np.isfinite(room))
+        if not len(k):
+            continue
+        # the joint goes towards the limit, or comes from there where time is reversed
         turned = -1.0 if kind.end else 1.0
+        sign = turned * np.where(side == 1, 1.0, -1.0)
         v, W = sign * x[frame.v[k + kind.end, j]], turned * sign * x[frame.W[k, j, kind.end]]
         A = np.maximum(frame.ramp[k, j] * x[frame.T[k]], 1e-300)
         two = soonest_stop(v, W * frame.ramp[k, j], A, jerk[k, j])
-        found.append(Cuts.of(kind, k, two, j, sign))
-    return found
+        yield kind, Cuts.of(kind, k, two, j, sign)
 
 
 def _grid(K: int, joints: Indices) -> tuple[Indices, Indices]:

@@ -2,7 +2,8 @@
 
 Each bound of a duration, or of an acceleration at a waypoint, is itself the optimum of the relaxation
 for another cost, and it is certified in the same way (optimality-based bound tightening). What the rows
-(6), (8) and (9) lose is proportional to the square of the boxes' widths.
+(6), (8) and (9) lose is proportional to the product of two boxes' widths. So every box that has become
+narrower is used at once, in the rows of the next program.
 
 References
 ----------
@@ -12,25 +13,38 @@ Journal of Global Optimization 67, pp. 731-757.
 
 from __future__ import annotations
 
-from collections.abc import Callable
+from typing import Protocol
 
 import numpy as np
 
 from formulations.deadlines import Deadline
 from formulations.proofs.every_motion.relaxation.boxes import Boxes
-from formulations.proofs.every_motion.relaxation.cuts import PRODUCTS
+from formulations.proofs.every_motion.relaxation.cuts import PRODUCTS, Cuts
 from formulations.proofs.every_motion.relaxation.linear_program import LinearProgram, LPSolution
+from formulations.proofs.every_motion.relaxation.propagation import propagate
 from formulations.proofs.every_motion.relaxation.relaxed_problem import UP
 
-_ROUNDS, _TOLERANCE = 5, 1e-6  # of cuts for one bound, which need not be the best one
+FEW, MANY = 3, 15  # rounds of cuts for one bound: to begin with, and where few gain nothing
+_TOLERANCE = 1e-6
+
+
+class Record(Protocol):
+    """What writes a proof down while boxes are narrowed."""
+
+    def narrowed(self, program: LinearProgram, column: int, side: int, found: LPSolution) -> None:
+        """Note the program that narrows the box of a column from one side, or proves it empty."""
+
+    def renewed(self) -> None:
+        """Note that the rows are from now on those of the narrowed boxes, after ``propagate``."""
 
 
 def tighten(
     program: LinearProgram,
     solution: LPSolution,
     deadline: Deadline,
-    note: Callable[[int, int, LPSolution], None] | None = None,
-) -> Boxes:
+    record: Record | None = None,
+    rounds: int = FEW,
+) -> tuple[Boxes, Cuts]:
     """Narrow the boxes of a program without losing a motion, as far as the time goes.
 
     All durations are narrowed, and those accelerations whose products (9) have a multiplier.
@@ -41,36 +55,48 @@ def tighten(
     solution : LPSolution
         Of the total time.
     deadline : Deadline
-    note : callable, optional
-        Called as ``note(column, side, solution)`` for every program that narrows a box.
+    record : Record, optional
+    rounds : int
+        Of cuts for one bound.
 
     Returns
     -------
-    Boxes
+    boxes : Boxes
+    cuts : Cuts
+        Of the last program.
     """
     frame = program.frame
-    durations, accelerations = frame.boxes.durations.copy(), frame.boxes.accelerations.copy()
-    wanted = [(int(frame.T[k]), durations[k], float(frame.typical[k])) for k in range(frame.K)]
-    for k, j in _with_multiplier(program, solution):
-        scale = float(frame.relaxed.acceleration[j])
-        wanted.append((int(frame.a[k, j]), accelerations[k, j], scale))
-    for column, interval, unit in wanted:
+    wanted = [(0, k, 0) for k in range(frame.K)]
+    wanted += [(1, k, j) for k, j in _with_multiplier(program, solution)]
+    for of_acceleration, k, j in wanted:
+        frame, boxes = program.frame, program.frame.boxes
+        durations, accelerations = boxes.durations.copy(), boxes.accelerations.copy()
+        if of_acceleration:
+            column, interval = int(frame.a[k, j]), accelerations[k, j]
+            unit = float(frame.relaxed.acceleration[j])
+        else:
+            column, interval, unit = int(frame.T[k]), durations[k], float(frame.typical[k])
         for side, sign in ((0, 1.0), (1, -1.0)):
             if deadline.over:
-                return Boxes(durations, accelerations)
+                return boxes, program.cuts
             cost = np.zeros(frame.size)
             cost[column] = sign
-            found = program.solve(cost, rounds=_ROUNDS, tolerance=_TOLERANCE, deadline=deadline)
-            if note is not None:
-                note(column, side, found)
+            found = program.solve(cost, rounds=rounds, tolerance=_TOLERANCE, deadline=deadline)
+            if record is not None:
+                record.narrowed(program, column, side, found)
             if found.empty:
-                return Boxes(durations, accelerations, empty=True)
+                return Boxes(durations, accelerations, empty=True), program.cuts
             bound = sign * found.bound * unit
             bound -= sign * (UP - 1.0) * abs(bound)
             interval[side] = max(interval[0], bound) if side == 0 else min(interval[1], bound)
-        if interval[0] > interval[1]:
-            return Boxes(durations, accelerations, empty=True)
-    return Boxes(durations, accelerations)
+        empty = bool(interval[0] > interval[1])
+        boxes = propagate(frame.relaxed, Boxes(durations, accelerations, empty))
+        if record is not None:
+            record.renewed()
+        if boxes.empty:
+            return boxes, program.cuts
+        program = program.renewed(boxes)
+    return program.frame.boxes, program.cuts
 
 
 def _with_multiplier(program: LinearProgram, solution: LPSolution) -> list[tuple[int, int]]:

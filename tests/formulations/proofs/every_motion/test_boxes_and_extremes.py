@@ -23,7 +23,7 @@ def test_tightened_boxes_keep_the_fastest_motion() -> None:
     frame = frame_for(problem, motion.seconds * (1.0 + 1e-9))
     program = LinearProgram(frame, random_cuts(frame, np.random.default_rng(0), 5))
     solution = program.solve(frame.cost, rounds=50, tolerance=1e-8)
-    boxes = tighten(program, solution, Deadline(None))
+    boxes, _ = tighten(program, solution, Deadline(None))
     assert not boxes.empty
     T = np.diff(motion.passage_times)
     assert (boxes.durations[:, 0] <= T).all()

@@ -106,7 +106,7 @@ def test_a_bound_that_needs_narrower_boxes_is_certified(tmp_path: Path) -> None:
     """Jerk alone matters: one program proves little."""
     bound = recorded(problem_of([[0.0], [0.7], [0.9], [0.1]], 1e6, 1e6, 1.0), gap=1e-6, time_limit=4.0)
     assert bound.certificate is not None
-    assert {"N", "R", "F"} <= {event[0] for event in bound.certificate["events"]}
+    assert {"N", "P", "F"} <= {event[0] for event in bound.certificate["events"]}
     assert outcome(tmp_path, bound.certificate) == CERTIFIED
     first = copy.deepcopy(bound.certificate)
     first["events"] = [event for event in first["events"] if event[0] == "F"]

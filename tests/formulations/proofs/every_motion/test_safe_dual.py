@@ -126,7 +126,7 @@ def test_a_solve_without_multipliers_is_tried_again(
 
 def test_rows_that_the_solver_refuses_leave_a_status(monkeypatch: pytest.MonkeyPatch) -> None:
     """HiGHS takes no coefficient above 1e15; without scaling this problem has some."""
-    monkeypatch.setattr("formulations.proofs.every_motion.relaxation.rows._LARGEST", math.inf)
+    monkeypatch.setattr("formulations.proofs.every_motion.relaxation.inequalities._LARGEST", math.inf)
     problem = Problem.of([[0.0], [-0.113948], [-0.11395], [0.0]], Limits.of(9.0, 5.0, 400.0, dof=1))
     frame = frame_for(problem, 1.0)
     cuts = Cuts.of(Kind.PEAK_AT_START, np.array([1]), np.array([1e20]))
