@@ -117,6 +117,11 @@ _ALL = (
         'timebound papers sr4c --item "Table 9" --out report',
     ),
     Command(
+        "cite", "compare.commands.cite:cite", PAPERS,
+        "Print BibTeX for exactly the methods and papers that a run has used.",
+        "timebound cite sr4c --swarms pso,mipso",
+    ),
+    Command(
         "table8", "compare.commands.studies.table8:table8", PAPERS,
         "Run Table 8 of Wang 2025 again, beside the bound that no run can beat.",
         "timebound table8 --runs 1000 --out report",
