@@ -5,7 +5,7 @@ from __future__ import annotations
 from typing import Any
 
 from docutils import nodes
-from docutils.utils.math import latex2mathml
+from docutils.utils.math import MathError, latex2mathml
 from sphinx.errors import ExtensionError
 
 
@@ -37,5 +37,5 @@ def _mathml(node: nodes.Element, *, block: bool) -> str:
     text = node.astext()
     try:
         return latex2mathml.tex2mathml(text, as_block=block)
-    except SyntaxError as error:
+    except MathError as error:
         raise ExtensionError(f"formula {text!r}: {error}") from error
