@@ -13,7 +13,11 @@ extensions = ["myst_nb", "sphinx.ext.autodoc", "sphinx.ext.napoleon", "extension
 exclude_patterns = ["extension"]
 html_theme = "furo"
 html_math_renderer = "mathml"  # of the extension: no script and no font from elsewhere
+html_static_path = ["static"]
+html_css_files = ["formulas.css"]
 html_copy_source = False
+html_show_copyright = False
+smartquotes = False  # --option is no dash
 html_show_sourcelink = False
 
 myst_enable_extensions = ["amsmath", "deflist", "dollarmath"]
