@@ -44,7 +44,7 @@ _ALL = (
     Command(
         "plan", "compare.commands.motions.plan:plan", MOTIONS,
         "Find the fastest motion through the waypoints, also with stops or given times.",
-        "timebound plan ur5 --stop 1 --pass 2=12.5 --export ur5.csv --rate 125",
+        "timebound plan ur5 --stop 1 --pass 2=12.48 --export ur5.csv --rate 125",
     ),
     Command(
         "check", "compare.commands.motions.check:check_motion", MOTIONS,
