@@ -44,7 +44,9 @@ def _cases() -> Table:
     for name in CASES:
         problem = load(name)
         size = f"{len(problem.waypoints)} of {problem.dof} joints"
-        rows.append((f"`{name}`", problem.title, size, problem.family, " ".join(problem.source.split())))
+        rows.append(
+            (f"`{name}`", problem.title, size, problem.family, " ".join(problem.source.split()))
+        )
     return ("case", "title", "waypoints", "family", "source, and what is assumed"), rows
 
 

@@ -119,7 +119,9 @@ def test_what_a_case_will_use_is_what_its_ladder_has_used(case: str, tmp_path: P
 
 
 def test_what_has_no_meaning_for_a_problem_is_not_cited() -> None:
-    without_acceleration, without_jerk, all_limits = map(reasons, map(used_by, ("cobot", "sr4c", "ur5")))
+    without_acceleration, without_jerk, all_limits = map(
+        reasons, map(used_by, ("cobot", "sr4c", "ur5"))
+    )
     assert "berscheid2021" not in without_acceleration  # Ruckig
     assert "huangfu2018" not in without_acceleration  # the relaxation
     assert "berscheid2021" in without_jerk
@@ -129,7 +131,14 @@ def test_what_has_no_meaning_for_a_problem_is_not_cited() -> None:
 
 
 def test_a_failed_rung_and_a_borrowed_number_cite_nothing_of_their_own(tmp_path: Path) -> None:
-    rung = {"seconds": 1.0, "kind": "lower", "status": "ok", "certified": True, "runtime": 0.1, "note": ""}
+    rung = {
+        "seconds": 1.0,
+        "kind": "lower",
+        "status": "ok",
+        "certified": True,
+        "runtime": 0.1,
+        "note": "",
+    }
     answer = {
         "problem": "mine",
         "durations": {},

@@ -11,6 +11,7 @@ from pathlib import Path
 import pytest
 
 from compare.__main__ import application
+from compare.audit import parse_papers
 from compare.commands import COMMANDS
 from formulations import parse
 
@@ -77,7 +78,9 @@ def test_the_examples_of_a_page_run_in_their_order(path: Path, tmp_path: Path) -
 def test_every_command_of_a_page_can_be_parsed(path: Path) -> None:
     for _, text in blocks(path, "sh", "console"):
         for line in text.splitlines():
-            words = shlex.split(line.replace("mine:swarm", "whale"), comments=True)  # there is no such file
+            words = shlex.split(
+                line.replace("mine:swarm", "whale"), comments=True
+            )  # there is no such file
             if words[:1] != ["timebound"]:
                 continue
             assert words[1] in COMMANDS, line
@@ -89,6 +92,12 @@ def test_the_problem_files_of_the_reference_are_problems() -> None:
     assert parse(first[1]).dof == 2
     pytest.importorskip("eaik")
     assert parse(second[1]).waypoints.shape == (2, 6)
+
+
+def test_the_paper_of_the_reference_is_one() -> None:
+    ((_, text),) = blocks(DOCS / "reference" / "paper_file.md", "toml")
+    (paper,) = parse_papers(text, "nobody")
+    assert [row.joint for row in paper.rows] == [0, 1]
 
 
 def test_the_comparison_of_lines_can_fail() -> None:

@@ -1,4 +1,4 @@
-"""The documentation site builds without a warning and without a network, is complete, and its links lead somewhere."""
+"""The site of the documentation: built without a warning or a network, complete, its links lead somewhere."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""The keys of a problem file and what each holds: what is read is what is described, and no other key is taken."""
+"""The keys of a problem file and what each holds; no other key is taken."""
 
 from __future__ import annotations
 

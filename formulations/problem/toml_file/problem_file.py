@@ -51,6 +51,7 @@ CASES: tuple[str, ...] = tuple(
     )
 )
 
+
 def load(file_or_case: str | Path) -> Problem:
     """Load the problem in a TOML file, or a shipped case.
 
@@ -119,7 +120,7 @@ def parse(text: str, *, where: str = "problem", folder: str | Path = ".") -> Pro
     Parameters
     ----------
     text : str
-        The keys are in ``toml_file.keys``: ``waypoints``, ``waypoints_file``, or ``robot`` or ``arm`` and ``[[pose]]``;
+        The keys are in ``keys``: ``waypoints``, ``waypoints_file``, or ``robot`` or ``arm`` and ``[[pose]]``;
         ``[limits]``, or ``robot`` and ``limits_file``; and ``name``, ``joints``, ``unit``, ``family``, ....
     where : str
         Start of every error line.
