@@ -81,19 +81,17 @@ def _algorithms() -> Table:
     rows = [
         (
             f"`{name}`",
-            GROUPS[entry.group],
-            entry.title,
-            entry.source,
+            f"{entry.title} ({GROUPS[entry.group]})",
+            f"{entry.source} ({', '.join(_cited(CitedKind.algorithm, name))})",
             ", ".join(f"{key} = {value}" for key, value in entry.parameters.items()),
-            ", ".join(_cited(CitedKind.algorithm, name)),
         )
         for name, entry in ALGORITHMS.items()
     ]
     rows += [
-        (f"`{name}`", "not reproducible", one.title, one.source, one.reason, "")
+        (f"`{name}`", f"{one.title} (not reproducible: {one.reason})", one.source, "")
         for name, one in NOT_REPRODUCIBLE.items()
     ]
-    return ("name", "group", "what it is", "source", "parameters", "cited as"), rows
+    return ("name", "what it is", "source, cited as", "parameters"), rows
 
 
 def _cited(kind: CitedKind, name: str) -> list[str]:

@@ -18,7 +18,7 @@ from formulations import parse
 ROOT = Path(__file__).parents[2]
 DOCS = ROOT / "docs"
 RUN = sorted([*DOCS.glob("questions/*.md"), *DOCS.glob("howto/*.md")])
-PAGES = sorted(path for path in DOCS.rglob("*.md") if "extension" not in path.parts)
+PAGES = sorted([*DOCS.rglob("*.md"), ROOT / "README.md"])
 CODE = re.compile(r"^(timebound .*?) *# exit code (\d+)$", re.MULTILINE)
 NUMBER = r"[-+]?\d+(?:\.\d+)?(?:e[-+]?\d+)?"
 
@@ -74,7 +74,7 @@ def test_the_examples_of_a_page_run_in_their_order(path: Path, tmp_path: Path) -
             assert is_said(line, said), f"{line}\nis not in\n{said}"
 
 
-@pytest.mark.parametrize("path", PAGES, ids=lambda path: str(path.relative_to(DOCS)))
+@pytest.mark.parametrize("path", PAGES, ids=lambda path: str(path.relative_to(ROOT)))
 def test_every_command_of_a_page_can_be_parsed(path: Path) -> None:
     for _, text in blocks(path, "sh", "console"):
         for line in text.splitlines():
