@@ -161,7 +161,9 @@ def _of_folder(folder: Path) -> list[Used]:
     store.settings()  # says in one line that there is no comparison
     found = [used for record in store.ladders().values() for used in _of_ladder(record)]
     rows = list(store.iterate_rows())
-    found += [used for case in dict.fromkeys(row.case for row in rows) for used in _of_case(case)]
+    origins = {name: str(data.get("origin", "")) for name, data in store.instances().items()}
+    for case in dict.fromkeys(row.case for row in rows):
+        found += _of_case(origins.get(case, "").removeprefix("perturbed ")) or _of_case(case)
     found += [_cited(CitedKind.family, name) for name in dict.fromkeys(row.family for row in rows)]
     found += used_swarms(dict.fromkeys(row.swarm for row in rows))
     return list(dict.fromkeys(found))

@@ -13,9 +13,10 @@ from graded_runs import graded
 from compare.__main__ import main
 from compare.benchmark.records.settings import Settings
 from compare.benchmark.records.store import Store
+from compare.benchmark.suite.catalogue import suite
 from compare.citations.bibliography import bibtex, entries, reasons
 from compare.citations.cited import CITED, OWN, STOP_AND_GO, CitedKind
-from compare.citations.used import used_by, used_swarms
+from compare.citations.used import Used, used_by, used_swarms
 from formulations import CASES, FAMILIES, RUNGS, load
 from metaheuristics import ALGORITHMS
 from metaheuristics.by_name import LIBRARIES
@@ -178,6 +179,18 @@ def test_a_folder_cites_the_swarms_of_its_rows(
     assert main(["cite", str(tmp_path)]) == 0
     found = set(re.findall(r"^@\w+\{(\w+),", capsys.readouterr().out, re.MULTILINE))
     assert found == {"timebound", "wang2025", "mirjalili2016"}
+
+
+def test_a_perturbed_case_cites_the_paper_of_its_case(tmp_path: Path) -> None:
+    instance = next(one for one in suite() if one.origin == "perturbed bagging")
+    store = Store(tmp_path)
+    store.clear()
+    store.write_settings(Settings("suite", (instance.name,), (0,), "30 evaluations"))
+    store.write_instance(instance.name, instance.to_json())
+    store.add(graded(instance.problem, 1.0, "shared", "random", 0, 30))
+    store.close()
+    assert set(reasons(used_by(str(tmp_path)))) == {*OWN, "li2022"}
+    assert Used(CitedKind.case, "bagging", ("li2022",)) in used_by(str(tmp_path))
 
 
 def test_it_prints_bibtex_alone_and_json_on_request(capsys: pytest.CaptureFixture[str]) -> None:
