@@ -44,7 +44,7 @@ _ALL = (
     Command(
         "plan", "compare.commands.motions.plan:plan", MOTIONS,
         "Find the fastest motion through the waypoints, also with stops or given times.",
-        "timebound plan ur5 --stop 1 --pass 2=12.5 --export ur5.csv --rate 125",
+        "timebound plan ur5 --stop 1 --pass 2=12.48 --export ur5.csv --rate 125",
     ),
     Command(
         "check", "compare.commands.motions.check:check_motion", MOTIONS,
@@ -115,6 +115,11 @@ _ALL = (
         "papers", "compare.commands.papers:papers", PAPERS,
         "Make the tables and figures of the five papers again, beside the printed ones.",
         'timebound papers sr4c --item "Table 9" --out report',
+    ),
+    Command(
+        "cite", "compare.commands.cite:cite", PAPERS,
+        "Print BibTeX for exactly the methods and papers that a run has used.",
+        "timebound cite sr4c --swarms pso,mipso",
     ),
     Command(
         "table8", "compare.commands.studies.table8:table8", PAPERS,

@@ -39,6 +39,7 @@ DOORS = {
     "formulations/arms/arm.py": "shipped files only",
     "compare/report/page.py": "a cell of a row, and pictures",
     "compare/benchmark/tuning/constants.py": "shipped files only",
+    "compare/citations/bibliography.py": "shipped files only",
     "compare/grading/names.py": "the source of a swarm, which runs afterwards",
     "compare/sources.py": "the source",
     "compare/benchmark/records/proof_cache.py": "the source",

@@ -11,12 +11,11 @@ from formulations.problem.arrays import Array
 from formulations.problem.errors import InputError
 from formulations.problem.joint_words import UNITS, factors, joint_label, shown_unit
 from formulations.problem.limits import LIMITED, Limits
+from formulations.problem.toml_file.keys import LIMIT_KEYS
 from formulations.problem.toml_file.toml_values import known_keys, read_choice, read_number, shown
 
 if TYPE_CHECKING:
     from formulations.robot import Robot
-
-_KEYS = ("unit", *LIMITED)
 
 
 def limits_of_table(
@@ -108,7 +107,7 @@ def limits_of_robot(table: Any, unit: str, robot: Robot) -> tuple[Limits, str]:
 def _unit(table: Any, unit: str) -> str:
     if not isinstance(table, dict):
         raise InputError(f"limits: expected a table, got {shown(table)}")
-    known_keys("limits", table, _KEYS)
+    known_keys("limits", table, tuple(LIMIT_KEYS))
     return read_choice("limits.unit", table.get("unit", unit), UNITS)
 
 

@@ -11,6 +11,7 @@ from formulations.arms import joints_of, load_arm, pose_of
 from formulations.problem.arrays import Array
 from formulations.problem.errors import InputError
 from formulations.problem.joint_words import METRES, UNITS
+from formulations.problem.toml_file.keys import POSE_KEYS
 from formulations.problem.toml_file.robot_files import require_few
 from formulations.problem.toml_file.toml_values import (
     known_keys,
@@ -24,7 +25,6 @@ if TYPE_CHECKING:
     from formulations.robot import Robot
 
 POSED = ("arm", "pose", "length", "near")  # the keys that stand in place of waypoints
-_POSE_KEYS = ("position", "rpy")
 _FARTHEST, _MOST_ANGLE = 1e4, 1e6  # m, rad
 
 
@@ -112,9 +112,9 @@ def _poses(data: dict[str, Any], angle: float) -> Array:
 
 def _pose(where: str, table: dict[str, Any], metre: float, angle: float) -> Array:
     """Pose (4, 4) of one table."""
-    known_keys(where, table, _POSE_KEYS)
+    known_keys(where, table, tuple(POSE_KEYS))
     vectors = []
-    for key in _POSE_KEYS:
+    for key in POSE_KEYS:
         if key not in table:
             raise InputError(f"{where}: {key}: missing")
         vector = read_matrix(f"{where}: {key}", [table[key]], "row", "value")[0]

@@ -13,6 +13,7 @@ from formulations.problem.arrays import Array
 from formulations.problem.errors import InputError
 from formulations.problem.joint_words import METRES, UNITS
 from formulations.problem.problem import Problem
+from formulations.problem.toml_file.keys import PROBLEM_KEYS
 from formulations.problem.toml_file.limit_table import limits_of_robot, limits_of_table
 from formulations.problem.toml_file.poses import (
     POSED,
@@ -47,11 +48,6 @@ CASES: tuple[str, ...] = tuple(
         for entry in files("formulations.problem.cases").iterdir()
         if entry.name.endswith(".toml")
     )
-)
-
-_KEYS = (
-    *("name", "title", "source", "unit", "family", "waypoints", "limits", *POSED),
-    *("joints", "prismatic", "waypoints_file", *ROBOT_KEYS),
 )
 
 
@@ -123,7 +119,7 @@ def parse(text: str, *, where: str = "problem", folder: str | Path = ".") -> Pro
     Parameters
     ----------
     text : str
-        The keys are in the README: ``waypoints``, ``waypoints_file``, or ``robot`` or ``arm`` and ``[[pose]]``;
+        The keys are in ``keys``: ``waypoints``, ``waypoints_file``, or ``robot`` or ``arm`` and ``[[pose]]``;
         ``[limits]``, or ``robot`` and ``limits_file``; and ``name``, ``joints``, ``unit``, ``family``, ....
     where : str
         Start of every error line.
@@ -159,7 +155,7 @@ def parse(text: str, *, where: str = "problem", folder: str | Path = ".") -> Pro
 
 
 def _problem(data: dict[str, Any], folder: Path) -> Problem:
-    known_keys("key", data, _KEYS)
+    known_keys("key", data, tuple(PROBLEM_KEYS))
     texts = {key: read_text(key, data.get(key, "")) for key in ("name", "title", "source")}
     unit = read_choice("unit", data.get("unit", "rad"), UNITS)
     family = data.get("family")

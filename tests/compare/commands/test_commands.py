@@ -86,7 +86,16 @@ def test_an_unknown_option_is_one_line(name: str, capsys: pytest.CaptureFixture[
     assert said.out == ""
 
 
-NEED_A_FILE = ("solve", "plan", "check", "split", "motion_picture", "check_certificate", "report")
+NEED_A_FILE = (
+    "cite",
+    "solve",
+    "plan",
+    "check",
+    "split",
+    "motion_picture",
+    "check_certificate",
+    "report",
+)
 
 BAD = {
     "new": (["--limits", "joint_limits.yaml"], "joint_limits.yaml: no such file"),
@@ -105,6 +114,7 @@ BAD = {
     "export": (["/nowhere", "--csv"], "/nowhere: holds no comparison"),
     "audit": (["nowhere.toml"], "nowhere.toml"),
     "papers": (["sr4x"], "KEY: 'sr4x' is not known; did you mean 'sr4c'?"),
+    "cite": (["sr4d"], "sr4d: no such file, and no case of that name"),
     "table8": (["--runs", "0"], "--runs: 0 is not positive"),
     "ablation": (["--jobs", "0"], "--jobs: 0 is not positive"),
     "readings": (["--seeds", "-3"], "--seeds: -3 is not positive"),
