@@ -6,7 +6,7 @@ and how often a single local solve ends in the wrong basin.
 
 from __future__ import annotations
 
-from dataclasses import asdict, dataclass
+from dataclasses import asdict, dataclass, replace
 from typing import Any
 
 import matplotlib.pyplot as plt
@@ -16,7 +16,7 @@ from matplotlib.figure import Figure
 from compare.report.style import BLUE, GREEN, GREY, ORANGE, PURPLE, VERMILION, styled
 from compare.screen import table
 from compare.studies.study import Call, Study
-from formulations import Limits, Problem, proved_optimum
+from formulations import FAMILIES, Limits, Problem, proved_optimum
 from formulations.proofs.family import family_bound
 
 GAPS = (1e-2, 1e-3, 1e-4, 1e-5, 1e-6, 1e-7)
@@ -34,6 +34,8 @@ class ProofTask:
     limited: str
     seed: int
     gaps: tuple[float, ...]
+    family: str = ""
+    position: bool = False
 
 
 @dataclass(frozen=True)
@@ -58,6 +60,8 @@ class ProofCost:
 def random_problem(task: ProofTask) -> Problem:
     """Draw a problem: displacements log-uniform in 1e-3 to 2 rad with random signs, limits near 1.
 
+    Position limits, where the task has some, leave 0.02 rad to the spline of equal durations.
+
     Parameters
     ----------
     task : ProofTask
@@ -79,7 +83,14 @@ def random_problem(task: ProofTask) -> Problem:
         8.0 * jerk if "J" in task.limited else np.inf,
         dof=task.joints,
     )
-    return Problem.of(waypoints, limits, name=f"random-{task.seed}")
+    problem = Problem.of(waypoints, limits, family=task.family or None, name=f"random-{task.seed}")
+    if not task.position:
+        return problem
+    ends = np.stack([waypoints.min(axis=0), waypoints.max(axis=0)], axis=1)
+    closed = replace(problem, limits=replace(limits, position=ends))
+    equal = np.ones((1, task.segments))
+    margin = float(FAMILIES[problem.family].position_excess(closed, equal)[0]) + 0.02
+    return replace(problem, limits=replace(limits, position=ends + margin * np.array([-1.0, 1.0])))
 
 
 def prove(task: ProofTask) -> list[ProofCost]:
@@ -129,7 +140,7 @@ def calls(count: int, most_segments: int, each_size: int) -> list[Call]:
     count : int
         Random 3-5-3 problems, of one to seven joints.
     most_segments : int
-        Most segments of the problems with six joints.
+        Most segments of the problems with six joints; of B-splines at most six.
     each_size : int
         Problems per size, limits and gap.
 
@@ -153,7 +164,14 @@ def calls(count: int, most_segments: int, each_size: int) -> list[Call]:
         for segments in (3, 4, 5)
         for seed in range(each_size)
     ]
-    return [(task,) for task in (*many, *longer, *finer)]
+    splines = [
+        ProofTask(family, segments, 6, limited, seed, (1e-3,), family, position)
+        for family in ("b-spline-3", "b-spline-5")
+        for segments in range(3, min(most_segments, 6) + 1)
+        for limited, position in (("VA", False), ("VAJ", True))
+        for seed in range(each_size)
+    ]
+    return [(task,) for task in (*many, *longer, *finer, *splines)]
 
 
 @dataclass(frozen=True)
