@@ -68,8 +68,9 @@ def begin(
     source = data_of(problem, blur)
     n, dof = source.d.shape
     data = RateData(
-        n, source.d, source.d_lo, source.d_hi, source.derivatives,
+        n, 1, n - 1, source.d, source.d_lo, source.d_hi, source.derivatives,
         source.room_below, source.room_above, BASIS, L,
+        np.zeros((0, 2), np.int64), np.zeros(0),
     )  # fmt: skip
     speed, domain = source.speed(L), duration_domain(source.shortest(L), L)
     stack, stack_v = np.empty((STACK, 2, n)), np.zeros((STACK, 2, dof, n + 1))

@@ -16,6 +16,7 @@ from formulations.proofs.conditions import (
     JUMP,
     KIND,
     ORDER,
+    PART,
     PIECE,
     PLACE,
     SCALE,
@@ -24,31 +25,32 @@ from formulations.proofs.conditions import (
     TOTAL,
 )
 from formulations.proofs.events import copy
-from formulations.proofs.four_three_four.data import piece_type, side_of
+from formulations.proofs.four_three_four.data import end_of, piece_type, side_of, variable_of
 
 
 @compiled
 def _share_beside(j: int, i: int, side: int, data: Any, reference: Any) -> float:
     """What the segment beside the open one adds to knot i's equation at c (side 0: the one before)."""
-    m, w, p, other = side_of(i, side, data.n)
+    m, w, p, other = side_of(i, side, data)
     c, v = reference.c, reference.vc
     return c[m] * (w * v[j, i] + 2.0 * v[j, other] - p * data.d[m, j] * c[m])
 
 
 @compiled
-def _places(order: int, k: int, n: int, value: Any, is_open: Any, places: Any, work: Any) -> int:
+def _places(order: int, k: int, data: Any, value: Any, is_open: Any, places: Any, work: Any) -> int:
     """Where derivative ``order`` of piece k, the polynomial value, can be extreme; returns the number.
 
     A knot is looked at on one piece only, except for the jerk, which jumps there, and except beside an
     open piece, whose own row would be slack.
     """
-    kind = piece_type(k, n)
+    kind, n = piece_type(k, data), data.n
     top = (3 if kind == 1 else 4) - order
     found = 0
-    if order > 0 and (k > 0 or order == 3):
+    if order > 0 and (kind != 0 or order == 3):
         places[0] = 0.0
         found = 1
-    if (order == 3 and kind != 1) or (0 < order < 3 and k + 1 < n and is_open[k + 1]):
+    ends = is_open[k + 1] if k + 1 < n else kind == 1
+    if (order == 3 and kind != 1) or (0 < order < 3 and ends):
         places[found] = 1.0
         found += 1
     if top == 4:
@@ -94,7 +96,7 @@ def candidates(rows: Any, data: Any, reference: Any) -> int:
     count = 0
     for j in range(d.shape[1]):
         for k in range(n):
-            kind = piece_type(k, n)
+            kind = piece_type(k, data)
             for order in range(4):
                 if order == 0:
                     if is_open[k] or (room_lo[k, j] == np.inf and room_hi[k, j] == np.inf):
@@ -107,7 +109,7 @@ def candidates(rows: Any, data: Any, reference: Any) -> int:
                         + basis[order, kind, 1, i] * vc[j, k]
                         + basis[order, kind, 2, i] * vc[j, k + 1]
                     )
-                for e in range(_places(order, k, n, value, is_open, places, work)):
+                for e in range(_places(order, k, data, value, is_open, places, work)):
                     s = places[e]
                     y = value[4]
                     for i in range(3, -1, -1):
@@ -129,6 +131,8 @@ def candidates(rows: Any, data: Any, reference: Any) -> int:
     for k in range(n):
         if not is_open[k] or (k > 0 and is_open[k - 1]) or (k + 1 < n and is_open[k + 1]):
             continue
+        if (k == 0 and data.first == 0) or (k + 1 == n and data.last == n):  # a is unknown at free ends
+            continue
         for j in range(d.shape[1]):
             if limit[2, j] == np.inf:
                 continue
@@ -144,7 +148,11 @@ def candidates(rows: Any, data: Any, reference: Any) -> int:
     rows[count, KIND], rows[count, SCALE] = TOTAL, 0.0
     for k in range(n):
         rows[count, SCALE] += 1.0 / c[k]
-    return count + 1
+    count += 1
+    for i in range(len(data.least)):
+        rows[count, KIND], rows[count, SEGMENT], rows[count, SCALE] = PART, i, data.least[i]
+        count += 1
+    return count
 
 
 @compiled
@@ -175,12 +183,13 @@ def linearise(form: Any, count: int, data: Any, box: Any, reference: Any, veloci
     """
     rows, a, g = form.rows, form.a, form.g
     n, d, limit, basis, lo = data.n, data.d, data.limit, data.basis, box.lo
+    first, last, V_lo, V_hi = data.first, data.last, velocities.lo, velocities.hi
     c, half, is_open, vc = reference.c, reference.half, reference.is_open, reference.vc
-    G, R = velocities.slopes, velocities.remainder
+    G, R, C = velocities.slopes, velocities.remainder, reference.C
     kept = 0
     for r in range(count):
         size = rows[r, SCALE]
-        for k in range(n):
+        for k in range(g.shape[1]):
             g[kept, k] = 0.0
         if rows[r, KIND] == TOTAL:
             y = -data.L
@@ -188,6 +197,15 @@ def linearise(form: Any, count: int, data: Any, box: Any, reference: Any, veloci
                 if not is_open[k]:
                     y += 1.0 / c[k]
                     g[kept, k] = -1.0 / (c[k] * c[k])
+        elif rows[r, KIND] == PART:
+            i = int(rows[r, SEGMENT])
+            y = data.least[i]
+            for k in range(data.parts[i, 0], data.parts[i, 1]):
+                if is_open[k]:
+                    y -= 1.0 / lo[k]
+                else:
+                    y -= 1.0 / c[k] + half[k] * half[k] / (c[k] * c[k] * lo[k])
+                    g[kept, k] = 1.0 / (c[k] * c[k])
         elif rows[r, KIND] == JUMP:
             j, k, sign = int(rows[r, JOINT]), int(rows[r, SEGMENT]), rows[r, SIGN]
             y = -limit[2, j] / lo[k]
@@ -195,7 +213,7 @@ def linearise(form: Any, count: int, data: Any, box: Any, reference: Any, veloci
                 i = k + side
                 if not 0 < i < n:
                     continue
-                m, w, p, other = side_of(i, side, n)
+                m, w, p, other = side_of(i, side, data)
                 y += sign * _share_beside(j, i, side, data, reference)
                 y -= c[m] * (w * R[j, i] + 2.0 * R[j, other])
                 g[kept, m] += sign * (w * vc[j, i] + 2.0 * vc[j, other] - 2.0 * p * d[m, j] * c[m])
@@ -204,7 +222,7 @@ def linearise(form: Any, count: int, data: Any, box: Any, reference: Any, veloci
         else:
             j, k, order = int(rows[r, JOINT]), int(rows[r, SEGMENT]), int(rows[r, ORDER])
             s, sign = rows[r, PLACE], rows[r, SIGN]
-            kind = piece_type(k, n)
+            kind = piece_type(k, data)
             y = 0.0
             for term in range(3):
                 w = 0.0
@@ -217,11 +235,14 @@ def linearise(form: Any, count: int, data: Any, box: Any, reference: Any, veloci
                         w -= data.room_hi[k, j] if sign > 0.0 else data.room_lo[k, j]
                     y += w * c[k]
                     g[kept, k] += w
-                elif 0 < k + term - 1 < n:
+                elif first <= k + term - 1 <= last:
                     i = k + term - 1
                     y += w * vc[j, i] - abs(w) * R[j, i]
                     for m in range(n):
                         g[kept, m] += w * G[j, i, m]
+                    for end in (0, n):
+                        if first <= end <= last:
+                            g[kept, variable_of(j, end, data)] += w * C[i, end]
             x, e = c[k], half[k]
             if order == 0:
                 pass
@@ -238,8 +259,12 @@ def linearise(form: Any, count: int, data: Any, box: Any, reference: Any, veloci
                 g[kept, k] += 2.0 * limit[2, j] / (x * x * x)
         a[kept] = y / size
         most = a[kept]
-        for k in range(n):
-            g[kept, k] *= half[k] / size
+        for k in range(g.shape[1]):
+            if k < n:
+                g[kept, k] *= half[k] / size
+            elif g[kept, k] != 0.0:
+                j, i = end_of(k, data)
+                g[kept, k] *= 0.5 * (V_hi[j, i] - V_lo[j, i]) / size
             most += abs(g[kept, k])
         if most > 0.0:
             if kept != r:

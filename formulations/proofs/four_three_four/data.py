@@ -27,12 +27,17 @@ VARIES, UNIT, GONE = 0, 1, 2
 class RateData(NamedTuple):
     """The task of one attempt; the variables are the rates x_k = 1 / T_k.
 
-    n: number of segments. d, d_lo, d_hi: displacements and their enclosures, (n, dof) [rad]. limit
+    n: number of segments. first, last: the knots whose velocity is unknown are first .. last: 1 .. n-1
+    from rest to rest, but a part of the motion is free at an end that is not one of the motion (first is
+    0 there, last is n). d, d_lo, d_hi: displacements and their enclosures, (n, dof) [rad]. limit
     (3, dof): velocity, acceleration, jerk. room_lo, room_hi (n, dof): from the start of each segment to
     the position limits below and above, rounded up [rad]. basis: ``BASIS``. L: the total time [s].
+    parts (m, 2), least (m,): the segments parts[i, 0] .. parts[i, 1] - 1 are known to take least[i] [s].
     """
 
     n: int
+    first: int
+    last: int
     d: Any
     d_lo: Any
     d_hi: Any
@@ -41,6 +46,8 @@ class RateData(NamedTuple):
     room_hi: Any
     basis: Any
     L: float
+    parts: Any
+    least: Any
 
 
 class Reference(NamedTuple):
@@ -81,7 +88,8 @@ class VelocityEnclosure(NamedTuple):
 class RateForm(NamedTuple):
     """Rows, and their first-order form a_i + g_i . e <= 0, e in [-1, 1]^n, about the reference.
 
-    rows (m, WIDTH), a (m,), g (m, n), multipliers (m,); few (n+1, WIDTH): the rows of a discard.
+    rows (m, WIDTH), a (m,), g (m, n_variables), multipliers (m,); few (n_variables+1, WIDTH): the rows of
+    a discard. The variables are the n of x, then the velocities at the free ends, see ``n_variables``.
     """
 
     rows: Any
@@ -89,6 +97,7 @@ class RateForm(NamedTuple):
     g: Any
     multipliers: Any
     few: Any
+    smear: Any
 
 
 class LagrangianSums(NamedTuple):
@@ -155,23 +164,24 @@ def empty_enclosure(n: int, dof: int) -> VelocityEnclosure:
 
 
 @compiled
-def empty_form(n: int, dof: int) -> RateForm:
+def empty_form(data: RateData) -> RateForm:
     """Make room for the most rows that a box can have.
 
     Parameters
     ----------
-    n, dof : int
-        Segments and moving joints.
+    data : RateData
+        The task.
 
     Returns
     -------
     RateForm
         Zeros.
     """
-    most = dof * n * 17 + 1
+    n, variables = data.d.shape[0], n_variables(data)
+    most = data.d.shape[1] * n * 19 + 1 + len(data.least)
     return RateForm(
-        np.zeros((most, WIDTH)), np.zeros(most), np.zeros((most, n)), np.zeros(most),
-        np.zeros((n + 1, WIDTH)),
+        np.zeros((most, WIDTH)), np.zeros(most), np.zeros((most, variables)), np.zeros(most),
+        np.zeros((variables + 1, WIDTH)), np.zeros(variables),
     )  # fmt: skip
 
 
@@ -197,49 +207,118 @@ def empty_sums(n: int, dof: int) -> LagrangianSums:
 
 
 @compiled
-def piece_type(m: int, n: int) -> int:
-    """Which kind of piece segment m of n is.
+def n_variables(data: RateData) -> int:
+    """Count the variables: x, and the velocities of all joints at the free ends, first start, then end.
 
     Parameters
     ----------
-    m, n : int
-        The segment, and the number of segments.
+    data : RateData
+        The task.
+
+    Returns
+    -------
+    int
+        n, or more for a part.
+    """
+    free = (1 if data.first == 0 else 0) + (1 if data.last == data.n else 0)
+    return data.n + int(free * data.d.shape[1])
+
+
+@compiled
+def variable_of(j: int, i: int, data: RateData) -> int:
+    """Which variable the velocity of joint j at the free end i, 0 or n, is.
+
+    Parameters
+    ----------
+    j, i : int
+        Joint and knot.
+    data : RateData
+        The task.
+
+    Returns
+    -------
+    int
+        Its place among the variables.
+    """
+    return int(data.n + j + (data.d.shape[1] if i > 0 and data.first == 0 else 0))
+
+
+@compiled
+def end_of(x: int, data: RateData) -> tuple[int, int]:
+    """Which velocity the variable x >= n is; undoes ``variable_of``.
+
+    Parameters
+    ----------
+    x : int
+        The variable.
+    data : RateData
+        The task.
+
+    Returns
+    -------
+    j, i : int
+        Joint and knot.
+    """
+    dof = data.d.shape[1]
+    j = x - data.n
+    if data.first == 0:
+        return (j, 0) if j < dof else (j - dof, data.n)
+    return j, data.n
+
+
+@compiled
+def piece_type(m: int, data: RateData) -> int:
+    """Which kind of piece segment m is.
+
+    Parameters
+    ----------
+    m : int
+        The segment.
+    data : RateData
+        The task.
 
     Returns
     -------
     int
         0: first quartic, 1: cubic, 2: last quartic.
     """
-    return 0 if m == 0 else (2 if m == n - 1 else 1)
+    if m == 0 and data.first == 1:
+        return 0
+    return 2 if m == data.n - 1 and data.last < data.n else 1
 
 
 @compiled
-def weights(m: int, n: int) -> tuple[float, float, float, float]:
+def weights(m: int, data: RateData) -> tuple[float, float, float, float]:
     """The weights w, p of segment m in the equations of its left and of its right knot.
 
     Parameters
     ----------
-    m, n : int
-        The segment, and the number of segments.
+    m : int
+        The segment.
+    data : RateData
+        The task.
 
     Returns
     -------
     wr, pr, wl, pl : float
         In the left knot's equation (where it is the segment on the right), and in the right knot's.
     """
-    wr, pr = (6.0, 12.0) if m == n - 1 else (4.0, 6.0)
-    wl, pl = (6.0, 12.0) if m == 0 else (4.0, 6.0)
+    kind = piece_type(m, data)
+    wr, pr = (6.0, 12.0) if kind == 2 else (4.0, 6.0)
+    wl, pl = (6.0, 12.0) if kind == 0 else (4.0, 6.0)
     return wr, pr, wl, pl
 
 
 @compiled
-def side_of(i: int, side: int, n: int) -> tuple[int, float, float, int]:
+def side_of(i: int, side: int, data: RateData) -> tuple[int, float, float, int]:
     """The share of one neighbouring segment in the equation of knot i: x_m (w v_i + 2 v_other - p d_m x_m).
 
     Parameters
     ----------
-    i, side, n : int
-        The knot; 0 for the segment before it, 1 for the one after; the number of segments.
+    i, side : int
+        The knot; 0 for the segment before it, 1 for the one after.
+    data : RateData
+        The task.
 
     Returns
     -------
@@ -251,7 +330,7 @@ def side_of(i: int, side: int, n: int) -> tuple[int, float, float, int]:
         The other waypoint of the segment.
     """
     m = i - 1 + side
-    wr, pr, wl, pl = weights(m, n)
+    wr, pr, wl, pl = weights(m, data)
     if side == 0:
         return m, wl, pl, i - 1
     return m, wr, pr, i + 1

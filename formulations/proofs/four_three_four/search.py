@@ -32,6 +32,7 @@ from formulations.proofs.four_three_four.data import (
     empty_form,
     empty_reference,
     empty_sums,
+    end_of,
 )
 from formulations.proofs.four_three_four.lagrangian import share_least, sum_rows
 from formulations.proofs.four_three_four.reference import place_reference
@@ -41,19 +42,35 @@ from formulations.proofs.multipliers import minimax
 STACK = 2000
 SHORT = 1e-10  # of L: an open segment this short is not split further
 _TURNS = 6  # rounds of cuts on one box before it is split
+import os
+MODE = int(os.environ.get('MODE','0'))
+KAPPA = float(os.environ.get('KAPPA','1'))
 _SWEEPS = 2  # of the enclosure of the velocities per round
 
 
 @inlined
 def _cut_by_total(box: Any, data: Any) -> bool:
-    """Cut the box by T_k = L - the others, twice; returns False if nothing is left."""
-    lo, hi, n, L = box.lo, box.hi, data.n, data.L
+    """Cut the box by T_k = L - the others, twice; returns False if nothing is left.
+
+    The least time of the others is the most that the parts and the ends of x imply together.
+    """
+    lo, hi, n, L, parts = box.lo, box.hi, data.n, data.L, data.parts
+    before, after = np.zeros(n + 1), np.zeros(n + 1)
     for _ in range(2):
-        t_lo, t_hi = 0.0, 0.0
+        t_hi = 0.0
         for k in range(n):
-            t_lo, t_hi = down(t_lo + down(1.0 / hi[k])), up(t_hi + up(1.0 / lo[k]))
+            t_hi = up(t_hi + up(1.0 / lo[k]))
+            before[k + 1] = down(before[k] + down(1.0 / hi[k]))
+            for p in range(len(parts)):
+                if parts[p, 1] == k + 1:
+                    before[k + 1] = max(before[k + 1], down(before[parts[p, 0]] + data.least[p]))
+        for k in range(n - 1, -1, -1):
+            after[k] = down(after[k + 1] + down(1.0 / hi[k]))
+            for p in range(len(parts)):
+                if parts[p, 0] == k:
+                    after[k] = max(after[k], down(after[parts[p, 1]] + data.least[p]))
         for k in range(n):
-            most = up(L - down(t_lo - up(1.0 / hi[k])))
+            most = up(L - down(before[k] + after[k + 1]))
             least = down(L - up(t_hi - down(1.0 / lo[k])))
             if not most > 0.0:
                 return False
@@ -71,7 +88,7 @@ def _narrowed(box: Any, data: Any, reference: Any, velocities: Any, trace: Any, 
     left = _cut_by_total(box, data)
     write(trace, TURN, 0, 0.0, box, few, 0)
     if left:
-        place_reference(reference, box, data)
+        place_reference(reference, box, data, velocities)
         for j in range(data.d.shape[1]):
             for _ in range(_SWEEPS):
                 left = left and enclose(j, data, box, reference, velocities)
@@ -98,10 +115,14 @@ def _single_row(k: int, side: int, count: int, form: Any) -> tuple[int, float]:
 
 
 @inlined
-def _choose_rows(form: Any, count: int, n: int) -> int:
+def _choose_rows(form: Any, count: int) -> int:
     """Put the rows with the multipliers of the linear program into ``few``; returns their number."""
-    few, lam = form.few, form.multipliers
+    few, lam, n = form.few, form.multipliers, form.g.shape[1]
     minimax(form.a, form.g, count, n, lam, 200)
+    for k in range(n):
+        form.smear[k] = 0.0
+        for i in range(count):
+            form.smear[k] += lam[i] * abs(form.g[i, k])
     kept = 0
     for i in range(count):
         if lam[i] > 1e-13 and kept < n + 1:
@@ -165,7 +186,7 @@ def _try_discards(
     Returns whether nothing is left, and whether enough was cut for another turn.
     """
     n, lo, hi = data.n, box.lo, box.hi
-    kept = _choose_rows(form, count, n)
+    kept = _choose_rows(form, count)
     cut = False
     for single in range(-1, 2 * n):
         where = 0.0
@@ -201,6 +222,7 @@ def _reduced_to_nothing(
     box: Any, data: Any, reference: Any, velocities: Any, form: Any, sums: Any, trace: Any
 ) -> bool:
     """Narrow the box turn by turn as long as that helps; returns whether nothing is left."""
+    form.smear[:] = 0.0
     for _ in range(_TURNS):
         if not _narrowed(box, data, reference, velocities, trace, form.few):
             trace.counts[EMPTIES] += 1
@@ -249,7 +271,7 @@ def branch_and_bound(
         Whether the box at depth - 1 is undecided and too narrow to be split.
     """
     n, dof, shortest = data.n, data.d.shape[1], SHORT * data.L
-    form, sums = empty_form(n, dof), empty_sums(n, dof)
+    form, sums = empty_form(data), empty_sums(n, dof)
     reference, velocities = empty_reference(n, dof), empty_enclosure(n, dof)
     box = Box(np.empty(n), np.empty(n))
     lo, hi = box
@@ -269,6 +291,29 @@ def branch_and_bound(
             width = np.log(hi[k] / lo[k]) if hi[k] < np.inf else np.log(1.0 / (lo[k] * shortest))
             if width > widest:
                 x, widest = k, width
+        best = 0.0
+        for k in range(n, len(form.smear)):
+            j, i = end_of(k, data)
+            width = KAPPA * (velocities.hi[j, i] - velocities.lo[j, i]) / data.limit[0, j]
+            if MODE == 1:
+                width *= form.smear[k]
+                if width > best and width > widest:
+                    best, x = width, k
+            elif MODE == 2 and form.smear[k] > 0.0 and width > widest and form.smear[k]>best:
+                best, x = form.smear[k], k
+        if x >= n:
+            j, i = end_of(x, data)
+            middle = 0.5 * (velocities.lo[j, i] + velocities.hi[j, i])
+            for child in range(2):
+                copy(stack[depth, 0], lo)
+                copy(stack[depth, 1], hi)
+                for m in range(dof):
+                    copy(stack_v[depth, 0, m], velocities.lo[m])
+                    copy(stack_v[depth, 1, m], velocities.hi[m])
+                stack_v[depth, 1 - child, j, i] = middle
+                depth += 1
+            write(trace, SPLIT, x, middle, box, form.few, 0)
+            continue
         if widest < effort.narrow or depth > STACK - 3:
             if not effort.aside:
                 copy(stack[depth, 0], lo)
