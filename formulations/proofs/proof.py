@@ -11,6 +11,7 @@ import numpy as np
 from formulations.problem.arrays import Array
 from formulations.problem.problem import Problem
 from formulations.proofs.events import BOXES, EVENTS, EventTrace, Log, empty_trace
+from formulations.proofs.part import PartBound
 
 NARROW = 1e-11  # logarithmic width below which a box is undecided
 _CAPACITY = 20_000  # events kept before they are moved out of the compiled search
@@ -50,6 +51,8 @@ class ProofSearch:
         For 3-5-3 with a middle segment on which nothing moves: tau [s], and the discards for T2 <= tau.
     anytime : Anytime or None
         For a prover whose unfinished attempts prove something too.
+    parts : tuple of PartBound
+        Bounds of parts of the motion that the search uses.
     """
 
     n_variables: int
@@ -60,6 +63,7 @@ class ProofSearch:
     impossible: str = ""
     short: tuple[float, Array] | None = None
     anytime: Anytime | None = None
+    parts: tuple[PartBound, ...] = ()
 
 
 class Prover(Protocol):

@@ -156,6 +156,27 @@ def candidates(rows: Any, data: Any, reference: Any) -> int:
 
 
 @compiled
+def _can_be_violated(row: Any, data: Any, box: Any, velocities: Any) -> bool:
+    """Whether a limit inside a piece may be exceeded for some x and v in their enclosures."""
+    j, k, order = int(row[JOINT]), int(row[SEGMENT]), int(row[ORDER])
+    if order == 0:
+        return True
+    s, sign, kind = row[PLACE], row[SIGN], piece_type(k, data)
+    y = 0.0
+    for term in range(3):
+        w = 0.0
+        for p in range(4 - order, -1, -1):
+            w = w * s + data.basis[order, kind, term, p]
+        w *= sign
+        if term == 0:
+            w *= data.d[k, j]
+            y += 0.0 if w == 0.0 else max(w * box.lo[k], w * box.hi[k])
+        else:
+            y += max(w * velocities.lo[j, k + term - 1], w * velocities.hi[j, k + term - 1])
+    return bool(y > data.limit[order - 1, j] / box.hi[k] ** (order - 1))
+
+
+@compiled
 def linearise(form: Any, count: int, data: Any, box: Any, reference: Any, velocities: Any) -> int:
     """Fill in the first-order form of the rows: a_i + g_i . e <= 0 for e in [-1, 1]^n.
 
@@ -189,6 +210,8 @@ def linearise(form: Any, count: int, data: Any, box: Any, reference: Any, veloci
     kept = 0
     for r in range(count):
         size = rows[r, SCALE]
+        if rows[r, KIND] == PIECE and not _can_be_violated(rows[r], data, box, velocities):
+            continue
         for k in range(g.shape[1]):
             g[kept, k] = 0.0
         if rows[r, KIND] == TOTAL:

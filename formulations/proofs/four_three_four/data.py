@@ -32,6 +32,7 @@ class RateData(NamedTuple):
     0 there, last is n). d, d_lo, d_hi: displacements and their enclosures, (n, dof) [rad]. limit
     (3, dof): velocity, acceleration, jerk. room_lo, room_hi (n, dof): from the start of each segment to
     the position limits below and above, rounded up [rad]. basis: ``BASIS``. L: the total time [s].
+    speed (dof,): bounds on the velocities [rad/s].
     parts (m, 2), least (m,): the segments parts[i, 0] .. parts[i, 1] - 1 are known to take least[i] [s].
     """
 
@@ -46,6 +47,7 @@ class RateData(NamedTuple):
     room_hi: Any
     basis: Any
     L: float
+    speed: Any
     parts: Any
     least: Any
 
@@ -89,7 +91,8 @@ class RateForm(NamedTuple):
     """Rows, and their first-order form a_i + g_i . e <= 0, e in [-1, 1]^n, about the reference.
 
     rows (m, WIDTH), a (m,), g (m, n_variables), multipliers (m,); few (n_variables+1, WIDTH): the rows of
-    a discard. The variables are the n of x, then the velocities at the free ends, see ``n_variables``.
+    a discard. The variables are the n of x, then the velocities at the free ends, see ``n_variables``;
+    smear (n_variables,): how much the rows of the last discard depend on each.
     """
 
     rows: Any

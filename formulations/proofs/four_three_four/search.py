@@ -42,9 +42,7 @@ from formulations.proofs.multipliers import minimax
 STACK = 2000
 SHORT = 1e-10  # of L: an open segment this short is not split further
 _TURNS = 6  # rounds of cuts on one box before it is split
-import os
-MODE = int(os.environ.get('MODE','0'))
-KAPPA = float(os.environ.get('KAPPA','1'))
+_LEFTMOST = 0.5  # with known parts: the first segment is split whose width is this share of the widest
 _SWEEPS = 2  # of the enclosure of the velocities per round
 
 
@@ -116,7 +114,10 @@ def _single_row(k: int, side: int, count: int, form: Any) -> tuple[int, float]:
 
 @inlined
 def _choose_rows(form: Any, count: int) -> int:
-    """Put the rows with the multipliers of the linear program into ``few``; returns their number."""
+    """Put the rows with the multipliers of the linear program into ``few``; returns their number.
+
+    How much the rows depend on each variable is kept for the choice of the variable to split.
+    """
     few, lam, n = form.few, form.multipliers, form.g.shape[1]
     minimax(form.a, form.g, count, n, lam, 200)
     for k in range(n):
@@ -241,6 +242,61 @@ def _reduced_to_nothing(
 
 
 @compiled
+def _choose_variable(box: Any, data: Any, velocities: Any, smear: Any) -> tuple[int, float]:
+    """Which variable to split, and the largest width of a segment, in the logarithm of x.
+
+    A segment: the widest. In a whole whose parts have known bounds: the first that is not much narrower,
+    since what is left of the others is bounded without splitting them. Velocities at the free ends of a
+    part: that which matters most to the rows chosen last, if it is wider than all segments.
+    """
+    lo, hi, n, shortest = box.lo, box.hi, data.n, SHORT * data.L
+    x, widest = 0, -1.0
+    width = np.empty(n)
+    for k in range(n):
+        width[k] = np.log(hi[k] / lo[k]) if hi[k] < np.inf else np.log(1.0 / (lo[k] * shortest))
+        if width[k] > widest:
+            x, widest = k, width[k]
+    if len(smear) == n and len(data.least):
+        x = 0
+        while width[x] < _LEFTMOST * widest:
+            x += 1
+    most = 0.0
+    for k in range(n, len(smear)):
+        j, i = end_of(k, data)
+        wide = velocities.hi[j, i] - velocities.lo[j, i]
+        if smear[k] > most and wide > widest * data.speed[j]:
+            most, x = smear[k], k
+    return x, widest
+
+
+@inlined
+def _push_velocity_halves(
+    stack: Any,
+    stack_v: Any,
+    depth: int,
+    box: Any,
+    x: int,
+    data: Any,
+    velocities: Any,
+    trace: Any,
+    few: Any,
+) -> int:
+    """Split the velocity at a free end that is variable x; returns the new depth."""
+    j, i = end_of(x, data)
+    middle = 0.5 * (velocities.lo[j, i] + velocities.hi[j, i])
+    for child in range(2):
+        copy(stack[depth, 0], box.lo)
+        copy(stack[depth, 1], box.hi)
+        for m in range(data.d.shape[1]):
+            copy(stack_v[depth, 0, m], velocities.lo[m])
+            copy(stack_v[depth, 1, m], velocities.hi[m])
+        stack_v[depth, 1 - child, j, i] = middle
+        depth += 1
+    write(trace, SPLIT, x, middle, box, few, 0)
+    return depth
+
+
+@compiled
 def branch_and_bound(
     stack: Any, stack_v: Any, depth: int, data: Any, effort: Any, trace: Any
 ) -> tuple[int, bool]:
@@ -286,33 +342,11 @@ def branch_and_bound(
         trace.counts[BOXES] += 1
         if _reduced_to_nothing(box, data, reference, velocities, form, sums, trace):
             continue
-        x, widest = 0, -1.0
-        for k in range(n):
-            width = np.log(hi[k] / lo[k]) if hi[k] < np.inf else np.log(1.0 / (lo[k] * shortest))
-            if width > widest:
-                x, widest = k, width
-        best = 0.0
-        for k in range(n, len(form.smear)):
-            j, i = end_of(k, data)
-            width = KAPPA * (velocities.hi[j, i] - velocities.lo[j, i]) / data.limit[0, j]
-            if MODE == 1:
-                width *= form.smear[k]
-                if width > best and width > widest:
-                    best, x = width, k
-            elif MODE == 2 and form.smear[k] > 0.0 and width > widest and form.smear[k]>best:
-                best, x = form.smear[k], k
+        x, widest = _choose_variable(box, data, velocities, form.smear)
         if x >= n:
-            j, i = end_of(x, data)
-            middle = 0.5 * (velocities.lo[j, i] + velocities.hi[j, i])
-            for child in range(2):
-                copy(stack[depth, 0], lo)
-                copy(stack[depth, 1], hi)
-                for m in range(dof):
-                    copy(stack_v[depth, 0, m], velocities.lo[m])
-                    copy(stack_v[depth, 1, m], velocities.hi[m])
-                stack_v[depth, 1 - child, j, i] = middle
-                depth += 1
-            write(trace, SPLIT, x, middle, box, form.few, 0)
+            depth = _push_velocity_halves(
+                stack, stack_v, depth, box, x, data, velocities, trace, form.few
+            )
             continue
         if widest < effort.narrow or depth > STACK - 3:
             if not effort.aside:
