@@ -21,7 +21,7 @@ from formulations.problem.arrays import Array
 from formulations.problem.errors import InputError
 from formulations.problem.problem import Problem
 from formulations.proofs.part import PartBound
-from formulations.proofs.proof import Proof, Prover
+from formulations.proofs.proof import Proof, ProofSearch, Prover
 from formulations.proofs.status import BoundStatus
 
 _DIRECT = 0.1  # share of the time limit for an attempt at the final gap, before coarser ones
@@ -81,7 +81,8 @@ class Alternation:
         InputError
             If the motion of these durations does not pass the check.
         """
-        self.problem, self.begin, self.record, self.progress = problem, begin, record, progress
+        self.problem, self.record, self.progress = problem, record, progress
+        self.begin: Callable[..., ProofSearch] = begin
         self.least, self.interrupt, self.parts = least, Deadline(None, stop), parts
         self.boxes, self.restarts = 0, 0
         self.most_boxes = np.inf if most_boxes is None else most_boxes

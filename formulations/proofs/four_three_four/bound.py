@@ -38,8 +38,9 @@ from formulations.problem.arrays import Array
 from formulations.problem.problem import Problem
 from formulations.proofs.domain import LESS, MORE, ProblemData, data_of, duration_domain
 from formulations.proofs.events import Effort, EventTrace
+from formulations.proofs.four_three_four.branching import SHORT
 from formulations.proofs.four_three_four.data import BASIS, RateData, n_variables
-from formulations.proofs.four_three_four.search import SHORT, STACK, branch_and_bound
+from formulations.proofs.four_three_four.search import STACK, branch_and_bound
 from formulations.proofs.part import PartBound
 from formulations.proofs.proof import NARROW, ProofSearch
 

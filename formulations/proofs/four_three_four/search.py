@@ -23,16 +23,15 @@ from formulations.proofs.events import (
     Box,
     copy,
     has_room,
-    push_halves,
     write,
 )
+from formulations.proofs.four_three_four.branching import choose_variable, middle_of, push_both_halves
 from formulations.proofs.four_three_four.conditions import candidates, linearise
 from formulations.proofs.four_three_four.data import (
     empty_enclosure,
     empty_form,
     empty_reference,
     empty_sums,
-    end_of,
 )
 from formulations.proofs.four_three_four.lagrangian import share_least, sum_rows
 from formulations.proofs.four_three_four.reference import place_reference
@@ -40,9 +39,7 @@ from formulations.proofs.four_three_four.velocities import enclose
 from formulations.proofs.multipliers import minimax
 
 STACK = 2000
-SHORT = 1e-10  # of L: an open segment this short is not split further
 _TURNS = 6  # rounds of cuts on one box before it is split
-_LEFTMOST = 0.5  # with known parts: the first segment is split whose width is this share of the widest
 _SWEEPS = 2  # of the enclosure of the velocities per round
 
 
@@ -242,61 +239,6 @@ def _reduced_to_nothing(
 
 
 @compiled
-def _choose_variable(box: Any, data: Any, velocities: Any, smear: Any) -> tuple[int, float]:
-    """Which variable to split, and the largest width of a segment, in the logarithm of x.
-
-    A segment: the widest. In a whole whose parts have known bounds: the first that is not much narrower,
-    since what is left of the others is bounded without splitting them. Velocities at the free ends of a
-    part: that which matters most to the rows chosen last, if it is wider than all segments.
-    """
-    lo, hi, n, shortest = box.lo, box.hi, data.n, SHORT * data.L
-    x, widest = 0, -1.0
-    width = np.empty(n)
-    for k in range(n):
-        width[k] = np.log(hi[k] / lo[k]) if hi[k] < np.inf else np.log(1.0 / (lo[k] * shortest))
-        if width[k] > widest:
-            x, widest = k, width[k]
-    if len(smear) == n and len(data.least):
-        x = 0
-        while width[x] < _LEFTMOST * widest:
-            x += 1
-    most = 0.0
-    for k in range(n, len(smear)):
-        j, i = end_of(k, data)
-        wide = velocities.hi[j, i] - velocities.lo[j, i]
-        if smear[k] > most and wide > widest * data.speed[j]:
-            most, x = smear[k], k
-    return x, widest
-
-
-@inlined
-def _push_velocity_halves(
-    stack: Any,
-    stack_v: Any,
-    depth: int,
-    box: Any,
-    x: int,
-    data: Any,
-    velocities: Any,
-    trace: Any,
-    few: Any,
-) -> int:
-    """Split the velocity at a free end that is variable x; returns the new depth."""
-    j, i = end_of(x, data)
-    middle = 0.5 * (velocities.lo[j, i] + velocities.hi[j, i])
-    for child in range(2):
-        copy(stack[depth, 0], box.lo)
-        copy(stack[depth, 1], box.hi)
-        for m in range(data.d.shape[1]):
-            copy(stack_v[depth, 0, m], velocities.lo[m])
-            copy(stack_v[depth, 1, m], velocities.hi[m])
-        stack_v[depth, 1 - child, j, i] = middle
-        depth += 1
-    write(trace, SPLIT, x, middle, box, few, 0)
-    return depth
-
-
-@compiled
 def branch_and_bound(
     stack: Any, stack_v: Any, depth: int, data: Any, effort: Any, trace: Any
 ) -> tuple[int, bool]:
@@ -326,7 +268,7 @@ def branch_and_bound(
     stuck : bool
         Whether the box at depth - 1 is undecided and too narrow to be split.
     """
-    n, dof, shortest = data.n, data.d.shape[1], SHORT * data.L
+    n, dof = data.n, data.d.shape[1]
     form, sums = empty_form(data), empty_sums(n, dof)
     reference, velocities = empty_reference(n, dof), empty_enclosure(n, dof)
     box = Box(np.empty(n), np.empty(n))
@@ -342,12 +284,7 @@ def branch_and_bound(
         trace.counts[BOXES] += 1
         if _reduced_to_nothing(box, data, reference, velocities, form, sums, trace):
             continue
-        x, widest = _choose_variable(box, data, velocities, form.smear)
-        if x >= n:
-            depth = _push_velocity_halves(
-                stack, stack_v, depth, box, x, data, velocities, trace, form.few
-            )
-            continue
+        x, widest = choose_variable(box, data, velocities, form.smear)
         if widest < effort.narrow or depth > STACK - 3:
             if not effort.aside:
                 copy(stack[depth, 0], lo)
@@ -355,12 +292,7 @@ def branch_and_bound(
                 return depth + 1, True
             write(trace, ASIDE, 0, 0.0, box, form.few, 0)
             continue
-        middle = np.sqrt(lo[x] * hi[x]) if hi[x] < np.inf else np.sqrt(lo[x] / shortest)
-        push_halves(stack, depth, box, x, middle)
-        for _ in range(2):
-            for j in range(dof):
-                copy(stack_v[depth, 0, j], velocities.lo[j])
-                copy(stack_v[depth, 1, j], velocities.hi[j])
-            depth += 1
+        middle = middle_of(box, x, data, velocities)
+        depth = push_both_halves(stack, stack_v, depth, box, x, middle, data, velocities)
         write(trace, SPLIT, x, middle, box, form.few, 0)
     return depth, False
