@@ -115,8 +115,9 @@ def search_of(
     n, dof, inside = end - start, source.d.shape[1], slice(start, end)
     known = tuple(p for p in parts if start <= p.start and p.end <= end)
     speed = source.speed(horizon)
+    first, last = 1 if start == 0 else 0, n - 1 if end == len(source.d) else n
     data = RateData(
-        n, 1 if start == 0 else 0, n - 1 if end == len(source.d) else n,
+        (n, first, last), n, first, last,
         source.d[inside], source.d_lo[inside], source.d_hi[inside], source.derivatives,
         np.ascontiguousarray(source.room_below[inside]), np.ascontiguousarray(source.room_above[inside]),
         BASIS, L, speed,

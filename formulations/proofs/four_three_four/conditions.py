@@ -9,7 +9,7 @@ from typing import Any
 
 import numpy as np
 
-from formulations.compiled import compiled
+from formulations.compiled import compiled, inlined
 from formulations.families.polynomial import closed_form_roots
 from formulations.proofs.conditions import (
     JOINT,
@@ -31,19 +31,19 @@ from formulations.proofs.four_three_four.data import end_of, piece_type, side_of
 @compiled
 def _share_beside(j: int, i: int, side: int, data: Any, reference: Any) -> float:
     """What the segment beside the open one adds to knot i's equation at c (side 0: the one before)."""
-    m, w, p, other = side_of(i, side, data)
+    m, w, p, other = side_of(i, side, data.ends)
     c, v = reference.c, reference.vc
     return c[m] * (w * v[j, i] + 2.0 * v[j, other] - p * data.d[m, j] * c[m])
 
 
 @compiled
-def _places(order: int, k: int, data: Any, value: Any, is_open: Any, places: Any, work: Any) -> int:
+def _places(order: int, k: int, ends_of: Any, value: Any, is_open: Any, places: Any, work: Any) -> int:
     """Where derivative ``order`` of piece k, the polynomial value, can be extreme; returns the number.
 
     A knot is looked at on one piece only, except for the jerk, which jumps there, and except beside an
     open piece, whose own row would be slack.
     """
-    kind, n = piece_type(k, data), data.n
+    kind, n = piece_type(k, ends_of), ends_of[0]
     top = (3 if kind == 1 else 4) - order
     found = 0
     if order > 0 and (kind != 0 or order == 3):
@@ -96,7 +96,7 @@ def candidates(rows: Any, data: Any, reference: Any) -> int:
     count = 0
     for j in range(d.shape[1]):
         for k in range(n):
-            kind = piece_type(k, data)
+            kind = piece_type(k, data.ends)
             for order in range(4):
                 if order == 0:
                     if is_open[k] or (room_lo[k, j] == np.inf and room_hi[k, j] == np.inf):
@@ -109,7 +109,7 @@ def candidates(rows: Any, data: Any, reference: Any) -> int:
                         + basis[order, kind, 1, i] * vc[j, k]
                         + basis[order, kind, 2, i] * vc[j, k + 1]
                     )
-                for e in range(_places(order, k, data, value, is_open, places, work)):
+                for e in range(_places(order, k, data.ends, value, is_open, places, work)):
                     s = places[e]
                     y = value[4]
                     for i in range(3, -1, -1):
@@ -155,13 +155,13 @@ def candidates(rows: Any, data: Any, reference: Any) -> int:
     return count
 
 
-@compiled
+@inlined
 def _can_be_violated(row: Any, data: Any, box: Any, velocities: Any) -> bool:
     """Whether a limit inside a piece may be exceeded for some x and v in their enclosures."""
     j, k, order = int(row[JOINT]), int(row[SEGMENT]), int(row[ORDER])
     if order == 0:
         return True
-    s, sign, kind = row[PLACE], row[SIGN], piece_type(k, data)
+    s, sign, kind = row[PLACE], row[SIGN], piece_type(k, data.ends)
     y = 0.0
     for term in range(3):
         w = 0.0
@@ -236,7 +236,7 @@ def linearise(form: Any, count: int, data: Any, box: Any, reference: Any, veloci
                 i = k + side
                 if not 0 < i < n:
                     continue
-                m, w, p, other = side_of(i, side, data)
+                m, w, p, other = side_of(i, side, data.ends)
                 y += sign * _share_beside(j, i, side, data, reference)
                 y -= c[m] * (w * R[j, i] + 2.0 * R[j, other])
                 g[kept, m] += sign * (w * vc[j, i] + 2.0 * vc[j, other] - 2.0 * p * d[m, j] * c[m])
@@ -245,7 +245,7 @@ def linearise(form: Any, count: int, data: Any, box: Any, reference: Any, veloci
         else:
             j, k, order = int(rows[r, JOINT]), int(rows[r, SEGMENT]), int(rows[r, ORDER])
             s, sign = rows[r, PLACE], rows[r, SIGN]
-            kind = piece_type(k, data)
+            kind = piece_type(k, data.ends)
             y = 0.0
             for term in range(3):
                 w = 0.0

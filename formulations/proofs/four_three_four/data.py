@@ -27,7 +27,8 @@ VARIES, UNIT, GONE = 0, 1, 2
 class RateData(NamedTuple):
     """The task of one attempt; the variables are the rates x_k = 1 / T_k.
 
-    n: number of segments. first, last: the knots whose velocity is unknown are first .. last: 1 .. n-1
+    ends: (n, first, last), for small functions: a large tuple takes time to pass. n: number of segments.
+    first, last: the knots whose velocity is unknown are first .. last: 1 .. n-1
     from rest to rest, but a part of the motion is free at an end that is not one of the motion (first is
     0 there, last is n). d, d_lo, d_hi: displacements and their enclosures, (n, dof) [rad]. limit
     (3, dof): velocity, acceleration, jerk. room_lo, room_hi (n, dof): from the start of each segment to
@@ -36,6 +37,7 @@ class RateData(NamedTuple):
     parts (m, 2), least (m,): the segments parts[i, 0] .. parts[i, 1] - 1 are known to take least[i] [s].
     """
 
+    ends: Any
     n: int
     first: int
     last: int
@@ -270,58 +272,58 @@ def end_of(x: int, data: RateData) -> tuple[int, int]:
 
 
 @compiled
-def piece_type(m: int, data: RateData) -> int:
+def piece_type(m: int, ends: Any) -> int:
     """Which kind of piece segment m is.
 
     Parameters
     ----------
     m : int
         The segment.
-    data : RateData
-        The task.
+    ends : tuple of int
+        n, first and last of ``RateData``.
 
     Returns
     -------
     int
         0: first quartic, 1: cubic, 2: last quartic.
     """
-    if m == 0 and data.first == 1:
+    if m == 0 and ends[1] == 1:
         return 0
-    return 2 if m == data.n - 1 and data.last < data.n else 1
+    return 2 if m == ends[0] - 1 and ends[2] < ends[0] else 1
 
 
 @compiled
-def weights(m: int, data: RateData) -> tuple[float, float, float, float]:
+def weights(m: int, ends: Any) -> tuple[float, float, float, float]:
     """The weights w, p of segment m in the equations of its left and of its right knot.
 
     Parameters
     ----------
     m : int
         The segment.
-    data : RateData
-        The task.
+    ends : tuple of int
+        n, first and last of ``RateData``.
 
     Returns
     -------
     wr, pr, wl, pl : float
         In the left knot's equation (where it is the segment on the right), and in the right knot's.
     """
-    kind = piece_type(m, data)
+    kind = piece_type(m, ends)
     wr, pr = (6.0, 12.0) if kind == 2 else (4.0, 6.0)
     wl, pl = (6.0, 12.0) if kind == 0 else (4.0, 6.0)
     return wr, pr, wl, pl
 
 
 @compiled
-def side_of(i: int, side: int, data: RateData) -> tuple[int, float, float, int]:
+def side_of(i: int, side: int, ends: Any) -> tuple[int, float, float, int]:
     """The share of one neighbouring segment in the equation of knot i: x_m (w v_i + 2 v_other - p d_m x_m).
 
     Parameters
     ----------
     i, side : int
         The knot; 0 for the segment before it, 1 for the one after.
-    data : RateData
-        The task.
+    ends : tuple of int
+        n, first and last of ``RateData``.
 
     Returns
     -------
@@ -333,7 +335,7 @@ def side_of(i: int, side: int, data: RateData) -> tuple[int, float, float, int]:
         The other waypoint of the segment.
     """
     m = i - 1 + side
-    wr, pr, wl, pl = weights(m, data)
+    wr, pr, wl, pl = weights(m, ends)
     if side == 0:
         return m, wl, pl, i - 1
     return m, wr, pr, i + 1

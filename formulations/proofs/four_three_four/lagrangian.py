@@ -130,7 +130,7 @@ def _add_piece(const: float, row: Any, data: Any, reference: Any, sums: Any) -> 
     lam = row[MULTIPLIER] / row[SCALE]
     j, k, order = int(row[JOINT]), int(row[SEGMENT]), int(row[ORDER])
     s, g = row[PLACE], row[SIGN] * lam
-    terms = data.basis[order, piece_type(k, data)]
+    terms = data.basis[order, piece_type(k, data.ends)]
     sums.used[j] = True
     lo, hi = horner(terms[0], 5 - order, s)
     lo, hi = multiply(lo, hi, data.d_lo[k, j], data.d_hi[k, j])
@@ -169,7 +169,7 @@ def _choose_mu(j: int, data: Any, reference: Any, sums: Any) -> None:
         for side in range(2):
             eta = etas[j, i]
             if eta != 0.0 and state[i, side] == GONE and state[i, 1 - side] == UNIT:
-                m, w, _, other = side_of(i, side, data)
+                m, w, _, other = side_of(i, side, data.ends)
                 extra[i] += w * eta * c[m]
                 extra[other] += 2.0 * eta * c[m]
     for e in range(1, n):
@@ -205,7 +205,7 @@ def _add_knots(
                 if eta[j, i] == 0.0 or state[i, 1 - side] != UNIT:
                     continue
                 weight, centre = eta[j, i], c[i - 1 + side]
-            m, w, p, other = side_of(i, side, data)
+            m, w, p, other = side_of(i, side, data.ends)
             f_lo, f_hi = scale(weight, w, w)  # factor of x_m v_i (of v_i if UNIT)
             g = 2.0 * weight  # and of v_other
             if state[i, side] != UNIT:

@@ -74,7 +74,7 @@ def _inverse(ce: Any, data: Any, out: Any) -> None:
     n, first, last = data.n, data.first, data.last
     a = np.zeros((n + 1, n + 1))
     for i in range(first, last + 1):
-        wl, wr = side_of(i, 0, data)[1], side_of(i, 1, data)[1]
+        wl, wr = side_of(i, 0, data.ends)[1], side_of(i, 1, data.ends)[1]
         a[i, i] = wl * ce[i, 0] + wr * ce[i, 1]
         if i > first:
             a[i, i - 1] = 2.0 * ce[i, 0]
@@ -109,7 +109,7 @@ def _inverse_rest(ce: Any, C: Any, data: Any, out: Any) -> None:
             lo, hi = (1.0, 1.0) if i == e else (0.0, 0.0)
             for k in range(max(first, e - 1), min(last, e + 1) + 1):  # - C_ik A_ke
                 if k == e:
-                    wl, wr = side_of(e, 0, data)[1], side_of(e, 1, data)[1]
+                    wl, wr = side_of(e, 0, data.ends)[1], side_of(e, 1, data.ends)[1]
                     a_lo = down(down(wl * ce[e, 0]) + down(wr * ce[e, 1]))
                     a_hi = up(up(wl * ce[e, 0]) + up(wr * ce[e, 1]))
                 elif k == e + 1:
@@ -135,7 +135,7 @@ def _velocities(reference: Any, data: Any, velocities: Any) -> None:
                 for i in range(first, last + 1):
                     v[j, i] += C[i, end] * middle
         for m in range(n):
-            _wr, pr, _wl, pl = weights(m, data)
+            _wr, pr, _wl, pl = weights(m, data.ends)
             for i in range(first, last + 1):
                 if m > 0:
                     v[j, i] += pr * C[i, m] * d[m, j] * ce[m, 1] ** 2

@@ -51,7 +51,7 @@ def strays(j: int, data: Any, box: Any, state: Any, velocities: Any) -> None:
         for side in range(2):
             if state[i, side] != GONE or state[i, 1 - side] != UNIT:
                 continue
-            m, w, p, other = side_of(i, side, data)
+            m, w, p, other = side_of(i, side, data.ends)
             opened = i - side
             a_lo, a_hi = scale(w, V_lo[j, i], V_hi[j, i])
             a_lo, a_hi = add(a_lo, a_hi, 2.0 * V_lo[j, other], 2.0 * V_hi[j, other])
@@ -74,7 +74,7 @@ def _residuals(j: int, data: Any, reference: Any, velocities: Any, y_lo: Any, y_
             for i in range(data.first, data.last + 1):
                 R[j, i] += abs(C[i, e]) * max(abs(p), abs(q))
         for side in range(2):
-            m, w, f, at = side_of(e, side, data)
+            m, w, f, at = side_of(e, side, data.ends)
             other = vc[j, at]
             s_lo, s_hi = multiply(down(f * d_lo[m, j]), up(f * d_hi[m, j]), ce[e, side], ce[e, side])
             t = w * vc[j, e]
@@ -98,7 +98,7 @@ def _slopes(j: int, data: Any, box: Any, reference: Any, velocities: Any, y_lo: 
             for i in range(data.first, data.last + 1):
                 G[j, i, m] = 0.0
             continue
-        wr, pr, wl, pl = weights(m, data)
+        wr, pr, wl, pl = weights(m, data.ends)
         e_lo, e_hi = down(lo[m] - c[m]), up(hi[m] - c[m])
         half = max(-e_lo, e_hi)
         x_lo, x_hi = down(c[m] + lo[m]), up(c[m] + hi[m])
