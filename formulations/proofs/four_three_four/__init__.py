@@ -9,5 +9,6 @@ branching     which variable of a box it splits
 parts         bounds of sub-chains with free end velocities, which narrow the search for a long motion
 reference     the point of a box about which velocities and conditions are expanded
 conditions    which conditions to try on a box (no proof depends on them)
+ends          knots, variables and pieces of the whole and of a part with free ends
 data          named tuples that the compiled functions share
 """

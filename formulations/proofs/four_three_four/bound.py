@@ -39,7 +39,8 @@ from formulations.problem.problem import Problem
 from formulations.proofs.domain import LESS, MORE, ProblemData, data_of, duration_domain
 from formulations.proofs.events import Effort, EventTrace
 from formulations.proofs.four_three_four.branching import SHORT
-from formulations.proofs.four_three_four.data import BASIS, RateData, n_variables
+from formulations.proofs.four_three_four.data import BASIS, RateData
+from formulations.proofs.four_three_four.ends import n_variables
 from formulations.proofs.four_three_four.search import STACK, branch_and_bound
 from formulations.proofs.part import PartBound
 from formulations.proofs.proof import NARROW, ProofSearch
@@ -117,12 +118,11 @@ def search_of(
     speed = source.speed(horizon)
     first, last = 1 if start == 0 else 0, n - 1 if end == len(source.d) else n
     data = RateData(
-        (n, first, last), n, first, last,
+        n, (n, first, last),
         source.d[inside], source.d_lo[inside], source.d_hi[inside], source.derivatives,
         np.ascontiguousarray(source.room_below[inside]), np.ascontiguousarray(source.room_above[inside]),
         BASIS, L, speed,
-        np.array([(p.start - start, p.end - start) for p in known], np.int64).reshape(-1, 2),
-        np.array([p.seconds for p in known], np.float64),
+        np.array([(p.start - start, p.end - start, p.seconds) for p in known]).reshape(-1, 3),
     )  # fmt: skip
     domain = duration_domain(source.shortest(horizon)[inside], L)
     stack, stack_v = np.empty((STACK, 2, n)), np.empty((STACK, 2, dof, n + 1))
@@ -131,7 +131,7 @@ def search_of(
         moving = domain.shortest > 0.0
         stack[0, 1, moving] = MORE / domain.shortest[moving]
         stack_v[0] = 0.0
-        stack_v[0, 1, :, data.first : data.last + 1] = speed[:, None]
+        stack_v[0, 1, :, first : last + 1] = speed[:, None]
         stack_v[0, 0] = -stack_v[0, 1]
 
     def advance(depth: int, max_boxes: int, trace: EventTrace) -> tuple[int, bool]:
@@ -144,5 +144,5 @@ def search_of(
         # an open segment may be as short as it likes
         return np.where(closed, 1.0 / np.sqrt(lo * np.where(closed, hi, 1.0)), SHORT * L)
 
-    rows = n_variables(data) + 1
+    rows = n_variables(data.ends, dof) + 1
     return ProofSearch(n, rows, 0 if domain.empty else 1, advance, durations, parts=known)

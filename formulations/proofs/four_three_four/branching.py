@@ -8,7 +8,7 @@ import numpy as np
 
 from formulations.compiled import compiled
 from formulations.proofs.events import copy
-from formulations.proofs.four_three_four.data import end_of
+from formulations.proofs.four_three_four.ends import end_of
 
 SHORT = 1e-10  # of L: an open segment this short is not split further
 _LEFTMOST = 0.5  # with known parts: the first segment is split whose width is this share of the widest
@@ -47,13 +47,13 @@ def choose_variable(box: Any, data: Any, velocities: Any, smear: Any) -> tuple[i
         width[k] = np.log(hi[k] / lo[k]) if hi[k] < np.inf else np.log(1.0 / (lo[k] * shortest))
         if width[k] > widest:
             x, widest = k, width[k]
-    if len(smear) == n and len(data.least):
+    if len(smear) == n and len(data.parts):
         x = 0
         while width[x] < _LEFTMOST * widest:
             x += 1
     most = 0.0
     for k in range(n, len(smear)):
-        j, i = end_of(k, data)
+        j, i = end_of(k, data.ends, data.d.shape[1])
         wide = velocities.hi[j, i] - velocities.lo[j, i]
         if smear[k] > most and wide > widest * data.speed[j]:
             most, x = smear[k], k
@@ -81,7 +81,7 @@ def middle_of(box: Any, x: int, data: Any, velocities: Any) -> float:
         In the middle of a velocity, in the logarithm otherwise.
     """
     if x >= data.n:
-        j, i = end_of(x, data)
+        j, i = end_of(x, data.ends, data.d.shape[1])
         return float(0.5 * (velocities.lo[j, i] + velocities.hi[j, i]))
     if box.hi[x] < np.inf:
         return float(np.sqrt(box.lo[x] * box.hi[x]))
@@ -125,6 +125,6 @@ def push_both_halves(
         if x < data.n:
             stack[depth + child, 1 - child, x] = middle
         else:
-            j, i = end_of(x, data)
+            j, i = end_of(x, data.ends, data.d.shape[1])
             stack_v[depth + child, 1 - child, j, i] = middle
     return depth + 2

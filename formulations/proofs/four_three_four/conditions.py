@@ -25,7 +25,13 @@ from formulations.proofs.conditions import (
     TOTAL,
 )
 from formulations.proofs.events import copy
-from formulations.proofs.four_three_four.data import end_of, piece_type, side_of, variable_of
+from formulations.proofs.four_three_four.ends import (
+    end_of,
+    piece_type,
+    side_of,
+    unknown_knots,
+    variable_of,
+)
 
 
 @compiled
@@ -92,6 +98,7 @@ def candidates(rows: Any, data: Any, reference: Any) -> int:
     n, d, limit, basis = data.n, data.d, data.limit, data.basis
     room_lo, room_hi = data.room_lo, data.room_hi
     c, is_open, vc = reference.c, reference.is_open, reference.vc
+    first, last = unknown_knots(data.ends)
     value, places, work = np.zeros(5), np.zeros(8), np.zeros(5)
     count = 0
     for j in range(d.shape[1]):
@@ -131,7 +138,7 @@ def candidates(rows: Any, data: Any, reference: Any) -> int:
     for k in range(n):
         if not is_open[k] or (k > 0 and is_open[k - 1]) or (k + 1 < n and is_open[k + 1]):
             continue
-        if (k == 0 and data.first == 0) or (k + 1 == n and data.last == n):  # a is unknown at free ends
+        if (k == 0 and first == 0) or (k + 1 == n and last == n):  # a is unknown at free ends
             continue
         for j in range(d.shape[1]):
             if limit[2, j] == np.inf:
@@ -149,18 +156,18 @@ def candidates(rows: Any, data: Any, reference: Any) -> int:
     for k in range(n):
         rows[count, SCALE] += 1.0 / c[k]
     count += 1
-    for i in range(len(data.least)):
-        rows[count, KIND], rows[count, SEGMENT], rows[count, SCALE] = PART, i, data.least[i]
+    for i in range(len(data.parts)):
+        rows[count, KIND], rows[count, SEGMENT], rows[count, SCALE] = PART, i, data.parts[i, 2]
         count += 1
     return count
 
 
 @inlined
-def _can_be_violated(row: Any, data: Any, box: Any, velocities: Any) -> bool:
-    """Whether a limit inside a piece may be exceeded for some x and v in their enclosures."""
+def _highest(row: Any, data: Any, box: Any, velocities: Any) -> float:
+    """By how much a limit inside a piece may be exceeded for some x and v in their enclosures, or 1."""
     j, k, order = int(row[JOINT]), int(row[SEGMENT]), int(row[ORDER])
     if order == 0:
-        return True
+        return 1.0
     s, sign, kind = row[PLACE], row[SIGN], piece_type(k, data.ends)
     y = 0.0
     for term in range(3):
@@ -173,7 +180,7 @@ def _can_be_violated(row: Any, data: Any, box: Any, velocities: Any) -> bool:
             y += 0.0 if w == 0.0 else max(w * box.lo[k], w * box.hi[k])
         else:
             y += max(w * velocities.lo[j, k + term - 1], w * velocities.hi[j, k + term - 1])
-    return bool(y > data.limit[order - 1, j] / box.hi[k] ** (order - 1))
+    return float(y - data.limit[order - 1, j] / box.hi[k] ** (order - 1))
 
 
 @compiled
@@ -204,15 +211,14 @@ def linearise(form: Any, count: int, data: Any, box: Any, reference: Any, veloci
     """
     rows, a, g = form.rows, form.a, form.g
     n, d, limit, basis, lo = data.n, data.d, data.limit, data.basis, box.lo
-    first, last, V_lo, V_hi = data.first, data.last, velocities.lo, velocities.hi
+    V_lo, V_hi, dof, variables = velocities.lo, velocities.hi, d.shape[1], g.shape[1]
+    first, last = unknown_knots(data.ends)
     c, half, is_open, vc = reference.c, reference.half, reference.is_open, reference.vc
     G, R, C = velocities.slopes, velocities.remainder, reference.C
     kept = 0
     for r in range(count):
         size = rows[r, SCALE]
-        if rows[r, KIND] == PIECE and not _can_be_violated(rows[r], data, box, velocities):
-            continue
-        for k in range(g.shape[1]):
+        for k in range(variables):
             g[kept, k] = 0.0
         if rows[r, KIND] == TOTAL:
             y = -data.L
@@ -221,9 +227,9 @@ def linearise(form: Any, count: int, data: Any, box: Any, reference: Any, veloci
                     y += 1.0 / c[k]
                     g[kept, k] = -1.0 / (c[k] * c[k])
         elif rows[r, KIND] == PART:
-            i = int(rows[r, SEGMENT])
-            y = data.least[i]
-            for k in range(data.parts[i, 0], data.parts[i, 1]):
+            part = data.parts[int(rows[r, SEGMENT])]
+            y = part[2]
+            for k in range(int(part[0]), int(part[1])):
                 if is_open[k]:
                     y -= 1.0 / lo[k]
                 else:
@@ -263,9 +269,9 @@ def linearise(form: Any, count: int, data: Any, box: Any, reference: Any, veloci
                     y += w * vc[j, i] - abs(w) * R[j, i]
                     for m in range(n):
                         g[kept, m] += w * G[j, i, m]
-                    for end in (0, n):
+                    for end in range(0, n + 1, n):
                         if first <= end <= last:
-                            g[kept, variable_of(j, end, data)] += w * C[i, end]
+                            g[kept, variable_of(j, end, data.ends, dof)] += w * C[i, end]
             x, e = c[k], half[k]
             if order == 0:
                 pass
@@ -282,13 +288,17 @@ def linearise(form: Any, count: int, data: Any, box: Any, reference: Any, veloci
                 g[kept, k] += 2.0 * limit[2, j] / (x * x * x)
         a[kept] = y / size
         most = a[kept]
-        for k in range(g.shape[1]):
-            if k < n:
-                g[kept, k] *= half[k] / size
-            elif g[kept, k] != 0.0:
-                j, i = end_of(k, data)
-                g[kept, k] *= 0.5 * (V_hi[j, i] - V_lo[j, i]) / size
+        for k in range(n):
+            g[kept, k] *= half[k] / size
             most += abs(g[kept, k])
+        for k in range(n, variables):
+            if g[kept, k] != 0.0:
+                j, i = end_of(k, data.ends, dof)
+                g[kept, k] *= 0.5 * (V_hi[j, i] - V_lo[j, i]) / size
+                most += abs(g[kept, k])
+        if variables > n and rows[r, KIND] == PIECE and most > 0.0:
+            # velocities at free ends vary so much that the first order says little
+            most = _highest(rows[r], data, box, velocities)
         if most > 0.0:
             if kept != r:
                 copy(rows[kept], rows[r])

@@ -8,6 +8,7 @@ import numpy as np
 
 from formulations.compiled import compiled
 from formulations.proofs.conditions import WIDTH, with_derivatives
+from formulations.proofs.four_three_four.ends import n_variables
 
 # what multiplies d, T v0, T v1 in a piece's position from its start:
 # (order, piece [first quartic, cubic, last quartic], term, power of s)
@@ -27,20 +28,15 @@ VARIES, UNIT, GONE = 0, 1, 2
 class RateData(NamedTuple):
     """The task of one attempt; the variables are the rates x_k = 1 / T_k.
 
-    ends: (n, first, last), for small functions: a large tuple takes time to pass. n: number of segments.
-    first, last: the knots whose velocity is unknown are first .. last: 1 .. n-1
-    from rest to rest, but a part of the motion is free at an end that is not one of the motion (first is
-    0 there, last is n). d, d_lo, d_hi: displacements and their enclosures, (n, dof) [rad]. limit
-    (3, dof): velocity, acceleration, jerk. room_lo, room_hi (n, dof): from the start of each segment to
-    the position limits below and above, rounded up [rad]. basis: ``BASIS``. L: the total time [s].
-    speed (dof,): bounds on the velocities [rad/s].
-    parts (m, 2), least (m,): the segments parts[i, 0] .. parts[i, 1] - 1 are known to take least[i] [s].
+    n: number of segments. ends: see ``ends``. d, d_lo, d_hi: displacements and their enclosures, (n, dof)
+    [rad]. limit (3, dof): velocity, acceleration, jerk. room_lo, room_hi (n, dof): from the start of each
+    segment to the position limits below and above, rounded up [rad]. basis: ``BASIS``. L: the total time
+    [s]. speed (dof,): bounds on the velocities [rad/s]. parts (m, 3): the
+    segments parts[i, 0] .. parts[i, 1] - 1 are known to take parts[i, 2] [s].
     """
 
-    ends: Any
     n: int
-    first: int
-    last: int
+    ends: Any
     d: Any
     d_lo: Any
     d_hi: Any
@@ -51,7 +47,6 @@ class RateData(NamedTuple):
     L: float
     speed: Any
     parts: Any
-    least: Any
 
 
 class Reference(NamedTuple):
@@ -94,7 +89,7 @@ class RateForm(NamedTuple):
 
     rows (m, WIDTH), a (m,), g (m, n_variables), multipliers (m,); few (n_variables+1, WIDTH): the rows of
     a discard. The variables are the n of x, then the velocities at the free ends, see ``n_variables``;
-    smear (n_variables,): how much the rows of the last discard depend on each.
+    smear (n_variables,): how much the rows of the last discard depend on each of the latter.
     """
 
     rows: Any
@@ -182,8 +177,8 @@ def empty_form(data: RateData) -> RateForm:
     RateForm
         Zeros.
     """
-    n, variables = data.d.shape[0], n_variables(data)
-    most = data.d.shape[1] * n * 19 + 1 + len(data.least)
+    n, variables = data.d.shape[0], n_variables(data.ends, data.d.shape[1])
+    most = data.d.shape[1] * n * 19 + 1 + len(data.parts)
     return RateForm(
         np.zeros((most, WIDTH)), np.zeros(most), np.zeros((most, variables)), np.zeros(most),
         np.zeros((variables + 1, WIDTH)), np.zeros(variables),
@@ -209,133 +204,3 @@ def empty_sums(n: int, dof: int) -> LagrangianSums:
         np.zeros((dof, n + 1)), np.zeros((dof, n + 1)), np.zeros(dof, np.bool_), np.zeros((dof, n + 1)),
         np.zeros((n, 2)), np.zeros((n, 2)), np.zeros((n, 2)), np.zeros(n + 1), np.zeros(n + 1),
     )  # fmt: skip
-
-
-@compiled
-def n_variables(data: RateData) -> int:
-    """Count the variables: x, and the velocities of all joints at the free ends, first start, then end.
-
-    Parameters
-    ----------
-    data : RateData
-        The task.
-
-    Returns
-    -------
-    int
-        n, or more for a part.
-    """
-    free = (1 if data.first == 0 else 0) + (1 if data.last == data.n else 0)
-    return data.n + int(free * data.d.shape[1])
-
-
-@compiled
-def variable_of(j: int, i: int, data: RateData) -> int:
-    """Which variable the velocity of joint j at the free end i, 0 or n, is.
-
-    Parameters
-    ----------
-    j, i : int
-        Joint and knot.
-    data : RateData
-        The task.
-
-    Returns
-    -------
-    int
-        Its place among the variables.
-    """
-    return int(data.n + j + (data.d.shape[1] if i > 0 and data.first == 0 else 0))
-
-
-@compiled
-def end_of(x: int, data: RateData) -> tuple[int, int]:
-    """Which velocity the variable x >= n is; undoes ``variable_of``.
-
-    Parameters
-    ----------
-    x : int
-        The variable.
-    data : RateData
-        The task.
-
-    Returns
-    -------
-    j, i : int
-        Joint and knot.
-    """
-    dof = data.d.shape[1]
-    j = x - data.n
-    if data.first == 0:
-        return (j, 0) if j < dof else (j - dof, data.n)
-    return j, data.n
-
-
-@compiled
-def piece_type(m: int, ends: Any) -> int:
-    """Which kind of piece segment m is.
-
-    Parameters
-    ----------
-    m : int
-        The segment.
-    ends : tuple of int
-        n, first and last of ``RateData``.
-
-    Returns
-    -------
-    int
-        0: first quartic, 1: cubic, 2: last quartic.
-    """
-    if m == 0 and ends[1] == 1:
-        return 0
-    return 2 if m == ends[0] - 1 and ends[2] < ends[0] else 1
-
-
-@compiled
-def weights(m: int, ends: Any) -> tuple[float, float, float, float]:
-    """The weights w, p of segment m in the equations of its left and of its right knot.
-
-    Parameters
-    ----------
-    m : int
-        The segment.
-    ends : tuple of int
-        n, first and last of ``RateData``.
-
-    Returns
-    -------
-    wr, pr, wl, pl : float
-        In the left knot's equation (where it is the segment on the right), and in the right knot's.
-    """
-    kind = piece_type(m, ends)
-    wr, pr = (6.0, 12.0) if kind == 2 else (4.0, 6.0)
-    wl, pl = (6.0, 12.0) if kind == 0 else (4.0, 6.0)
-    return wr, pr, wl, pl
-
-
-@compiled
-def side_of(i: int, side: int, ends: Any) -> tuple[int, float, float, int]:
-    """The share of one neighbouring segment in the equation of knot i: x_m (w v_i + 2 v_other - p d_m x_m).
-
-    Parameters
-    ----------
-    i, side : int
-        The knot; 0 for the segment before it, 1 for the one after.
-    ends : tuple of int
-        n, first and last of ``RateData``.
-
-    Returns
-    -------
-    m : int
-        The segment.
-    w, p : float
-        4 and 6, but 6 and 12 for the quartic end pieces.
-    other : int
-        The other waypoint of the segment.
-    """
-    m = i - 1 + side
-    wr, pr, wl, pl = weights(m, ends)
-    if side == 0:
-        return m, wl, pl, i - 1
-    return m, wr, pr, i + 1

@@ -40,7 +40,8 @@ from formulations.proofs.conditions import (
     SIGN,
     TOTAL,
 )
-from formulations.proofs.four_three_four.data import GONE, UNIT, piece_type, side_of
+from formulations.proofs.four_three_four.data import GONE, UNIT
+from formulations.proofs.four_three_four.ends import piece_type, side_of, unknown_knots
 from formulations.proofs.four_three_four.velocities import strays
 
 
@@ -95,9 +96,9 @@ def sum_rows(
             for k in range(n):
                 shares[k, 3] = down(shares[k, 3] + lam)
         elif rows[r, KIND] == PART:
-            i = int(rows[r, SEGMENT])
-            const = down(const + down(lam * data.least[i]))
-            for k in range(data.parts[i, 0], data.parts[i, 1]):
+            part = data.parts[int(rows[r, SEGMENT])]
+            const = down(const + down(lam * part[2]))
+            for k in range(int(part[0]), int(part[1])):
                 shares[k, 4] = up(shares[k, 4] + lam)
         elif rows[r, KIND] == JUMP:
             const = _add_jump(const, rows[r], data, box, sums)
@@ -132,6 +133,7 @@ def _add_piece(const: float, row: Any, data: Any, reference: Any, sums: Any) -> 
     s, g = row[PLACE], row[SIGN] * lam
     terms = data.basis[order, piece_type(k, data.ends)]
     sums.used[j] = True
+    first, last = unknown_knots(data.ends)
     lo, hi = horner(terms[0], 5 - order, s)
     lo, hi = multiply(lo, hi, data.d_lo[k, j], data.d_hi[k, j])
     lo, hi = scale(g, lo, hi)
@@ -142,7 +144,7 @@ def _add_piece(const: float, row: Any, data: Any, reference: Any, sums: Any) -> 
     const = down(const + scale(reference.c[k], lo, hi)[0])  # alpha x = alpha c + alpha (x - c)
     for side in range(2):
         i = k + side
-        if data.first <= i <= data.last:
+        if first <= i <= last:
             lo, hi = horner(terms[1 + side], 5 - order, s)
             lo, hi = scale(g, lo, hi)
             sums.weight_lo[j, i], sums.weight_hi[j, i] = add(
@@ -163,6 +165,7 @@ def _choose_mu(j: int, data: Any, reference: Any, sums: Any) -> None:
     n, c, state, C = data.n, reference.c, reference.state, reference.C
     extra, mu, etas = sums.extra, sums.mu, sums.eta
     weight_lo, weight_hi = sums.weight_lo, sums.weight_hi
+    first, last = unknown_knots(data.ends)
     for i in range(n + 1):
         extra[i] = 0.0
     for i in range(1, n):
@@ -174,7 +177,7 @@ def _choose_mu(j: int, data: Any, reference: Any, sums: Any) -> None:
                 extra[other] += 2.0 * eta * c[m]
     for e in range(1, n):
         y = 0.0
-        for i in range(data.first, data.last + 1):
+        for i in range(first, last + 1):
             y -= (0.5 * (weight_lo[j, i] + weight_hi[j, i]) + extra[i]) * C[i, e]
         dropped = state[e, 0] == GONE and state[e, 1] == GONE
         mu[e] = 0.0 if dropped else y
@@ -188,7 +191,8 @@ def _add_knots(
     n, c, state, shares, mu = data.n, reference.c, reference.state, sums.shares, sums.mu
     factor_lo, factor_hi, cross = sums.factor_lo, sums.factor_hi, sums.cross
     d_lo, d_hi, eta, ce = data.d_lo, data.d_hi, sums.eta, reference.ce
-    V_lo, V_hi, first, last = velocities.lo, velocities.hi, data.first, data.last
+    V_lo, V_hi = velocities.lo, velocities.hi
+    first, last = unknown_knots(data.ends)
     stray_lo, stray_hi = velocities.stray_lo, velocities.stray_hi
     for m in range(n):
         for side in range(2):
@@ -233,8 +237,9 @@ def _add_bilinear(j: int, data: Any, box: Any, velocities: Any, sums: Any) -> No
     """
     n, shares, V_lo, V_hi = data.n, sums.shares, velocities.lo, velocities.hi
     factor_lo, factor_hi, cross = sums.factor_lo, sums.factor_hi, sums.cross
+    first, last = unknown_knots(data.ends)
     for m in range(n):
-        left, right = m >= data.first, m < data.last
+        left, right = m >= first, m < last
         if box.hi[m] == np.inf:
             continue
         if left:

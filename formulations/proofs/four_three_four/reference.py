@@ -11,7 +11,8 @@ import numpy as np
 
 from formulations.compiled import compiled, inlined
 from formulations.proofs.arithmetic.outward import add, down, scale, up
-from formulations.proofs.four_three_four.data import GONE, UNIT, VARIES, side_of, weights
+from formulations.proofs.four_three_four.data import GONE, UNIT, VARIES
+from formulations.proofs.four_three_four.ends import side_of, unknown_knots, weights
 
 
 @compiled
@@ -71,7 +72,8 @@ def _coefficients(reference: Any, data: Any) -> None:
 @inlined
 def _inverse(ce: Any, data: Any, out: Any) -> None:
     """Approximate inverse of A(c), (n+1, n+1) with zero borders (Gauss-Jordan, diagonally dominant)."""
-    n, first, last = data.n, data.first, data.last
+    n = data.n
+    first, last = unknown_knots(data.ends)
     a = np.zeros((n + 1, n + 1))
     for i in range(first, last + 1):
         wl, wr = side_of(i, 0, data.ends)[1], side_of(i, 1, data.ends)[1]
@@ -103,7 +105,7 @@ def _inverse(ce: Any, data: Any, out: Any) -> None:
 @inlined
 def _inverse_rest(ce: Any, C: Any, data: Any, out: Any) -> None:
     """Upper bounds of |I - C A(c)|, (n+1, n+1)."""
-    first, last = data.first, data.last
+    first, last = unknown_knots(data.ends)
     for i in range(first, last + 1):
         for e in range(first, last + 1):
             lo, hi = (1.0, 1.0) if i == e else (0.0, 0.0)
@@ -124,12 +126,13 @@ def _inverse_rest(ce: Any, C: Any, data: Any, out: Any) -> None:
 @inlined
 def _velocities(reference: Any, data: Any, velocities: Any) -> None:
     """Approximate v_c = C b(c), (dof, n+1); at a free end b is the middle of the enclosure."""
-    first, last, V_lo, V_hi = data.first, data.last, velocities.lo, velocities.hi
+    V_lo, V_hi = velocities.lo, velocities.hi
+    first, last = unknown_knots(data.ends)
     n, d, ce, C, v = data.n, data.d, reference.ce, reference.C, reference.vc
     for j in range(d.shape[1]):
         for i in range(n + 1):
             v[j, i] = 0.0
-        for end in (0, n):
+        for end in range(0, n + 1, n):
             if first <= end <= last:
                 middle = 0.5 * (V_lo[j, end] + V_hi[j, end])
                 for i in range(first, last + 1):

@@ -50,7 +50,7 @@ def _cut_by_total(box: Any, data: Any) -> bool:
     The least time of the others is the most that the parts and the ends of x imply together.
     """
     lo, hi, n, L, parts = box.lo, box.hi, data.n, data.L, data.parts
-    before, after = np.zeros(n + 1), np.zeros(n + 1)
+    before, after = np.zeros((2, n + 1))
     for _ in range(2):
         t_hi = 0.0
         for k in range(n):
@@ -58,12 +58,12 @@ def _cut_by_total(box: Any, data: Any) -> bool:
             before[k + 1] = down(before[k] + down(1.0 / hi[k]))
             for p in range(len(parts)):
                 if parts[p, 1] == k + 1:
-                    before[k + 1] = max(before[k + 1], down(before[parts[p, 0]] + data.least[p]))
+                    before[k + 1] = max(before[k + 1], down(before[int(parts[p, 0])] + parts[p, 2]))
         for k in range(n - 1, -1, -1):
             after[k] = down(after[k + 1] + down(1.0 / hi[k]))
             for p in range(len(parts)):
                 if parts[p, 0] == k:
-                    after[k] = max(after[k], down(after[parts[p, 1]] + data.least[p]))
+                    after[k] = max(after[k], down(after[int(parts[p, 1])] + parts[p, 2]))
         for k in range(n):
             most = up(L - down(before[k] + after[k + 1]))
             least = down(L - up(t_hi - down(1.0 / lo[k])))
@@ -110,14 +110,14 @@ def _single_row(k: int, side: int, count: int, form: Any) -> tuple[int, float]:
 
 
 @inlined
-def _choose_rows(form: Any, count: int) -> int:
+def _choose_rows(form: Any, count: int, n_segments: int) -> int:
     """Put the rows with the multipliers of the linear program into ``few``; returns their number.
 
-    How much the rows depend on each variable is kept for the choice of the variable to split.
+    How much they depend on each velocity at a free end is kept for the choice of the variable to split.
     """
     few, lam, n = form.few, form.multipliers, form.g.shape[1]
     minimax(form.a, form.g, count, n, lam, 200)
-    for k in range(n):
+    for k in range(n_segments, n):
         form.smear[k] = 0.0
         for i in range(count):
             form.smear[k] += lam[i] * abs(form.g[i, k])
@@ -184,7 +184,7 @@ def _try_discards(
     Returns whether nothing is left, and whether enough was cut for another turn.
     """
     n, lo, hi = data.n, box.lo, box.hi
-    kept = _choose_rows(form, count)
+    kept = _choose_rows(form, count, n)
     cut = False
     for single in range(-1, 2 * n):
         where = 0.0
