@@ -31,8 +31,7 @@ from formulations.references.ruckig_ import RUCKIG_END_TO_END, RUCKIG_STOP_AND_G
 from formulations.references.toppra_ import TOPPRA_CUBIC, TOPPRA_FAMILY_PATH
 
 LARGE = 30  # segments; of larger problems the rungs of the family are computed on demand
-_SHARE = 0.5  # of the time that is left, for one optimum
-_TIME_LIMIT = 20.0  # s
+_SHARE, _TIME_LIMIT = 0.5, 20.0  # of the time that is left, for one optimum; s, for another rung
 
 
 def ladder(

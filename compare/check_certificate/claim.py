@@ -177,31 +177,44 @@ class Claim:
         far = most(sign * bound, *(sign * row[j] for row in self.w))
         return far - sign * self.w[k][j] + self.slack
 
-    def speed(self, j: int) -> Any:
-        """Bound the speed of a joint in a motion from rest to rest in L seconds.
+    def speed(self, j: int, total: Any = None) -> Any:
+        """Bound the speed of a joint in a motion from rest to rest.
 
         Parameters
         ----------
         j : int
             The joint.
+        total : arb [s], optional
+            The motion takes no longer; L by default.
 
         Returns
         -------
         arb [rad/s], or None
             Upper bound; None without any limit.
         """
+        total = self.L if total is None else total
         velocity, acceleration, jerk = (row[j] for row in self.limits)
         if jerk is not None:
-            rising = jerk * self.L / 2
+            rising = jerk * total / 2
             acceleration = rising if acceleration is None else least(acceleration, rising)
         if acceleration is not None:
-            rising = acceleration * self.L / 2
+            rising = acceleration * total / 2
             velocity = rising if velocity is None else least(velocity, rising)
         return velocity
 
-    def shortest(self) -> list[Any]:
-        """Lower bounds of the durations, displacement over speed, length n [s]."""
-        speeds = {j: self.speed(j) for j in self.moving}
+    def shortest(self, total: Any = None) -> list[Any]:
+        """Lower bounds of the durations, displacement over speed, length n [s].
+
+        Parameters
+        ----------
+        total : arb [s], optional
+            The motion takes no longer; L by default.
+
+        Returns
+        -------
+        list of arb [s]
+        """
+        speeds = {j: self.speed(j, total) for j in self.moving}
         need(all(speed is not None for speed in speeds.values()), "a moving joint has no limit")
         return [most(*(abs(row[j]) / speeds[j] for j in self.moving)) for row in self.d]
 
@@ -216,13 +229,16 @@ class Claim:
         Returns
         -------
         tuple
-            Kind, multiplier > 0; then joint, segment and sign for jumps and pieces; order and place for pieces.
+            Kind, multiplier > 0; then joint, segment and sign for jumps and pieces; order and place for pieces;
+            first segment and the one after the last for parts.
         """
         raw = items(raw, 2, 7)
         kind, multiplier = raw[0], number(raw[-1])
         need(multiplier > 0, "a multiplier is not positive")
         if kind in ("t", "f", "l") and len(raw) == 2:
             return kind, multiplier
+        if kind == "w" and len(raw) == 4:
+            return kind, multiplier, index(raw[1], self.n), index(raw[2], self.n + 1)
         if (kind, len(raw)) not in (("p", 7), ("j", 5)):
             raise BadInput(f"unknown row {raw!r:.60}")
         j, k, sign = index(raw[1], self.dof), index(raw[2], self.n), raw[-2]

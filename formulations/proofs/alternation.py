@@ -8,6 +8,7 @@ from __future__ import annotations
 
 import time
 from collections.abc import Callable
+from functools import partial
 
 import numpy as np
 
@@ -19,10 +20,12 @@ from formulations.optima.family.optimum import local_optimum
 from formulations.problem.arrays import Array
 from formulations.problem.errors import InputError
 from formulations.problem.problem import Problem
-from formulations.proofs.proof import Proof, Prover
+from formulations.proofs.part import PartBound
+from formulations.proofs.proof import Proof, ProofSearch, Prover
 from formulations.proofs.status import BoundStatus
 
 _DIRECT = 0.1  # share of the time limit for an attempt at the final gap, before coarser ones
+_PARTS = 0.4  # share of the time limit after which no more parts are bounded
 _SLICE = 0.02  # s between looks at the clock
 _RESTARTS = 30  # better motions that the proof may find
 _BETTER = 1e-12  # relative; a smaller improvement is rounding
@@ -48,6 +51,7 @@ class Alternation:
         record: bool = False,
         stop: Stop | None = None,
         progress: Callable[[float, int], None] | None = None,
+        parts: Callable[..., tuple[PartBound, ...]] | None = None,
     ) -> None:
         """Begin with one motion.
 
@@ -69,14 +73,17 @@ class Alternation:
             Asked again and again whether to end now.
         progress : callable, optional
             Is called with the bound so far [s] and the number of boxes.
+        parts : callable, optional
+            Proves bounds of parts of the motion for a long search, see ``four_three_four.parts``.
 
         Raises
         ------
         InputError
             If the motion of these durations does not pass the check.
         """
-        self.problem, self.begin, self.record, self.progress = problem, begin, record, progress
-        self.least, self.interrupt = least, Deadline(None, stop)
+        self.problem, self.record, self.progress = problem, record, progress
+        self.begin: Callable[..., ProofSearch] = begin
+        self.least, self.interrupt, self.parts = least, Deadline(None, stop), parts
         self.boxes, self.restarts = 0, 0
         self.most_boxes = np.inf if most_boxes is None else most_boxes
         self.best: Proof | None = None
@@ -94,8 +101,8 @@ class Alternation:
         """Prove the best bound that the time allows.
 
         A first attempt goes for the final gap, for a tenth of the time: it suffices for most problems.
-        Then the gaps go from coarse to fine, so that a time limit leaves a bound that is nearly as good;
-        at last the first attempt is resumed.
+        Then parts of the motion are bounded, if ``parts`` can, and the gaps go from coarse to fine, so
+        that a time limit leaves a bound that is nearly as good; at last the first attempt is resumed.
         An anytime prover needs no coarse gaps, because its unfinished attempts are bounds as well: it
         goes for the final gap all the time. With a limit on the boxes there is the first attempt alone.
 
@@ -119,8 +126,11 @@ class Alternation:
         outcome = self._pursue(gap)
         if outcome[0] is BoundStatus.PROVED or self.anytime or short:
             return outcome
+        steps = 6 if self._prepare(started + _PARTS * time_limit) else 1
         self.deadline = started + time_limit
-        coarse = [10.0**-e for e in range(12) if 10.0**-e > 2.0 * gap]
+        # each step costs a multiple of the one before where parts have to help: short ones lose less
+        coarse = [10.0 ** (-e / steps) for e in range(12 * steps)]
+        coarse = [step for step in coarse if step > 2.0 * gap]
         for step in [*coarse, gap]:
             if self.best is not None and self.upper / (1.0 + step) <= self.best.seconds:
                 continue
@@ -128,6 +138,31 @@ class Alternation:
             if outcome[0] is not BoundStatus.PROVED:
                 return outcome
         return BoundStatus.PROVED, ""
+
+    def _prepare(self, until: float) -> bool:
+        """Prove bounds of parts of the motion for the prover to use; returns whether there are any."""
+        if self.parts is None:
+            return False
+
+        def over() -> bool:
+            return time.perf_counter() >= until or self.interrupt.over
+
+        known = self.parts(
+            self.problem,
+            self.durations,
+            self.upper,
+            record=self.record,
+            over=over,
+            progress=self._count,
+        )
+        if known:  # an attempt that knows them is worth more than the one that was paused
+            self.begin, self.paused = partial(self.begin, parts=known), None
+        return bool(known)
+
+    def _count(self, boxes: int) -> None:
+        self.boxes += boxes
+        if self.progress is not None:
+            self.progress(self.best.seconds if self.best else 0.0, self.boxes)
 
     def _pursue(self, gap: float) -> tuple[BoundStatus, str]:
         """Prove upper / (1 + gap), from better and better motions as the proof finds them."""
@@ -175,9 +210,7 @@ class Alternation:
             proof.run(int(min(slice_, left)))
             took = max(time.perf_counter() - clock, 1e-6)
             slice_ = int(min(max((proof.boxes - before) * _SLICE / took, 1.0), 2.0 * slice_))
-            self.boxes += proof.boxes - before
-            if self.progress is not None:
-                self.progress(self.best.seconds if self.best else 0.0, self.boxes)
+            self._count(proof.boxes - before)
             clock = time.perf_counter()
             looks = self.anytime and not proof.proved and self.restarts < _RESTARTS
             if looks and clock - looked > _LOOK * cost:

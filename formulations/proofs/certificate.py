@@ -9,11 +9,16 @@
                ``every_motion.events``
     events     in depth-first order (see ``events``), the first letter says which:
                ["T"] ["E"] ["S", k, value] ["L", rows] ["B", k, value, rows] ["A", k, value, rows]
+               ["W", start, end, b, H] (4-3-4): what follows proves that segments start .. end - 1 take
+               more than b seconds in every motion of at most H >= the bound; the whole comes last, as
+               ["W", 0, n, bound, bound]. ["V", joint, end, value] there: a split of the velocity at the
+               part's start (end 0) or end (1)
                an event without rows has those of the event before; the quintic's are in ``quintic.bound``
                a B-spline's ["T", lo, hi] states the times of the inner waypoints that a turn leaves
     a row      ["p", joint, segment, order, place, sign, multiplier]   a limit inside a piece (of a
                                                                        B-spline: a knot span)
                ["j", joint, segment, sign, multiplier]                 the jerk across an open segment
+               ["w", start, end, multiplier]                           the least time of a part
                ["t", multiplier] total   ["f", multiplier] first   ["l", multiplier] last
 
 Joints and segments count from 0. ``compare.check_certificate`` replays it in ball arithmetic.
@@ -38,13 +43,15 @@ from formulations.proofs.conditions import (
     LAST,
     MULTIPLIER,
     ORDER,
+    PART,
     PLACE,
     SCALE,
     SEGMENT,
     SIGN,
     TOTAL,
 )
-from formulations.proofs.events import ABOVE, BELOW, EMPTY, LEAF, SPLIT, TURN
+from formulations.proofs.events import ABOVE, BELOW, EMPTY, LEAF, SPLIT, TURN, Log
+from formulations.proofs.part import PartBound
 from formulations.proofs.proof import Proof
 
 FORMAT = "timebound certificate 1"
@@ -163,32 +170,62 @@ def _short(problem: Problem, proof: Proof) -> Any:
 def _events(problem: Problem, proof: Proof) -> list[list[Any]]:
     if proof.search.anytime is not None:
         return proof.search.anytime.events
-    log = proof.log()
-    moving = problem.moving_joints
+    moving, n = problem.moving_joints, problem.n_segments
+    events: list[list[Any]] = []
+    known = proof.search.parts
+    for part in known:
+        if part.log is not None:
+            events.append(["W", part.start, part.end, part.seconds.hex(), part.horizon.hex()])
+            events += _tree(part.log, (part.start, part.end), part.known, moving)
+    if known:
+        events.append(["W", 0, n, proof.L.hex(), proof.L.hex()])
+    stated = proof.search.turns_cut
+    return events + _tree(proof.log(), (0, n), known, moving, stated=stated)
+
+
+def _tree(
+    log: Log,
+    part: tuple[int, int],
+    known: tuple[PartBound, ...],
+    moving: list[int],
+    *,
+    stated: bool = False,
+) -> list[list[Any]]:
+    """Events of one tree; variables beyond the part's segments are velocities at its free ends.
+
+    stated: whether a turn states the box that it leaves.
+    """
+    start, end = part
     events: list[list[Any]] = []
     before = b""
     for (code, k, count), value, box, rows in zip(
         log.codes.tolist(), log.values, log.boxes, log.rows, strict=True
     ):
         event: list[Any] = [_LETTER_OF_EVENT[code]]
-        if code == TURN and proof.search.turns_cut:
+        if code == TURN and stated:
             event += _hex(box[:, 1:-1])
-        if code in (BELOW, ABOVE, SPLIT):
-            event += [k, float(value).hex()]
+        if code == SPLIT and k >= end - start:
+            side, j = divmod(k - (end - start), len(moving))
+            event = ["V", moving[j], side if start > 0 else 1, float(value).hex()]
+        elif code in (BELOW, ABOVE, SPLIT):
+            event += [start + k, float(value).hex()]
         if code in (BELOW, ABOVE, LEAF):
             same = rows[:count].tobytes()
             if same != before:
-                event.append([_row(row, moving) for row in rows[:count].tolist()])
+                event.append([_row(row, start, known, moving) for row in rows[:count].tolist()])
             before = same
         events.append(event)
     return events
 
 
-def _row(row: list[float], moving: list[int]) -> list[Any]:
+def _row(row: list[float], start: int, known: tuple[PartBound, ...], moving: list[int]) -> list[Any]:
     multiplier = (row[MULTIPLIER] / row[SCALE]).hex()
     if row[KIND] in _LETTER_OF_ROW:
         return [_LETTER_OF_ROW[row[KIND]], multiplier]
-    joint, segment, sign = moving[int(row[JOINT])], int(row[SEGMENT]), int(row[SIGN])
+    if row[KIND] == PART:
+        part = known[int(row[SEGMENT])]
+        return ["w", part.start, part.end, multiplier]
+    joint, segment, sign = moving[int(row[JOINT])], start + int(row[SEGMENT]), int(row[SIGN])
     if row[KIND] == JUMP:
         return ["j", joint, segment, sign, multiplier]
     return ["p", joint, segment, int(row[ORDER]), row[PLACE].hex(), sign, multiplier]

@@ -15,8 +15,9 @@ import numpy as np
 KIND, JOINT, SEGMENT, ORDER, PLACE, SIGN, SCALE, MULTIPLIER, WIDTH = 0, 1, 2, 3, 4, 5, 6, 7, 8
 
 # the kinds: a limit inside a piece; the durations add up to L; the least durations of the first and of
-# the last cubic of 3-5-3; the jump of the acceleration across a segment on which nothing moves (4-3-4)
-PIECE, TOTAL, FIRST, LAST, JUMP = 0.0, 1.0, 2.0, 3.0, 4.0
+# the last cubic of 3-5-3; the jump of the acceleration across a segment on which nothing moves (4-3-4);
+# the least time of a part of the motion (4-3-4)
+PIECE, TOTAL, FIRST, LAST, JUMP, PART = 0.0, 1.0, 2.0, 3.0, 4.0, 5.0
 
 # A Lagrangian must exceed this (rows are of size 1) to discard a box. Zero would be sound; with the
 # margin, a checker that rounds in another way agrees.

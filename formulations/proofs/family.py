@@ -43,6 +43,7 @@ from formulations.proofs.certificate import certificate_of, certificate_of_proof
 from formulations.proofs.displacement import exceeded_time
 from formulations.proofs.domain import data_of
 from formulations.proofs.four_three_four import bound as four_three_four
+from formulations.proofs.four_three_four.parts import parts_of
 from formulations.proofs.proof import Prover
 from formulations.proofs.quintic import bound as quintic
 from formulations.proofs.status import BoundStatus
@@ -247,6 +248,7 @@ def family_bound(
         record=record,
         stop=stop,
         progress=progress,
+        parts=parts_of if chosen.name == "4-3-4" else None,
     )
     status, reason = alternation.run(gap, time_limit)
     proof, certificate = alternation.best, None

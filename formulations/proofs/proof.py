@@ -11,6 +11,7 @@ import numpy as np
 from formulations.problem.arrays import Array
 from formulations.problem.problem import Problem
 from formulations.proofs.events import BOXES, EVENTS, EventTrace, Log, empty_trace
+from formulations.proofs.part import PartBound
 
 NARROW = 1e-11  # logarithmic width below which a box is undecided
 _CAPACITY = 20_000  # events kept before they are moved out of the compiled search
@@ -52,6 +53,8 @@ class ProofSearch:
         For a prover whose unfinished attempts prove something too.
     turns_cut : bool
         Whether a turn cuts the box by a search of roots, so that a certificate states the box after it.
+    parts : tuple of PartBound
+        Bounds of parts of the motion that the search uses.
     """
 
     n_variables: int
@@ -63,6 +66,7 @@ class ProofSearch:
     short: tuple[float, Array] | None = None
     anytime: Anytime | None = None
     turns_cut: bool = False
+    parts: tuple[PartBound, ...] = ()
 
 
 class Prover(Protocol):

@@ -55,12 +55,20 @@ class Tree:
         """Narrow a node by what its box implies."""
         raise Refused("an event this family does not have")
 
+    def _velocity_halves(self, event: list[Any], node: Node) -> list[Node]:
+        """Split what is known of a velocity."""
+        raise Refused("an event this family does not have")
+
     def replay(self) -> int:
         """Verify every event; returns the number of discards."""
+        return self._replay_tree(self.claim.events, 1, 0)
+
+    def _replay_tree(self, events: list[Any], begin: int, offset: int) -> int:
+        """Verify one tree, whose events count from ``begin`` and its variables from ``offset``."""
         stack, discards = [self.root], 0
         rows: list[Any] = []  # those of the last event that has some; none prove nothing
         node: Node | None = None
-        for count, raw in enumerate(self.claim.events, 1):
+        for count, raw in enumerate(events, begin):
             event = items(raw, 1, 4)
             letter, where = str(event[0]), f"event {count}"
             if node is None:
@@ -71,7 +79,8 @@ class Tree:
                 rows = [self.claim.row(row) for row in items(event[-1], 0, MOST_SEGMENTS + 1)]
             if letter in ("B", "A", "S"):
                 items(event, 3, 4)
-                k, value = index(event[1], len(node.box)), number(event[2])
+                k, value = index(event[1], offset + len(node.box)) - offset, number(event[2])
+                need(k >= 0, f"{where}: the segment is not in the part")
                 lo, hi = node.box[k]
             if letter == "T":
                 if not node.empty:
@@ -106,6 +115,9 @@ class Tree:
                         f"{where}: the split is outside the box",
                     )
                 stack += [node.half(k, 1, value), node.half(k, 0, value)]
+                node = None
+            elif letter == "V":
+                stack += self._velocity_halves(event, node)
                 node = None
             else:
                 raise BadInput(f"{where}: unknown event {letter!r:.20}")

@@ -9,13 +9,14 @@ from typing import Any
 
 import numpy as np
 
-from formulations.compiled import compiled
+from formulations.compiled import compiled, inlined
 from formulations.families.polynomial import closed_form_roots
 from formulations.proofs.conditions import (
     JOINT,
     JUMP,
     KIND,
     ORDER,
+    PART,
     PIECE,
     PLACE,
     SCALE,
@@ -24,31 +25,38 @@ from formulations.proofs.conditions import (
     TOTAL,
 )
 from formulations.proofs.events import copy
-from formulations.proofs.four_three_four.data import piece_type, side_of
+from formulations.proofs.four_three_four.ends import (
+    end_of,
+    piece_type,
+    side_of,
+    unknown_knots,
+    variable_of,
+)
 
 
 @compiled
 def _share_beside(j: int, i: int, side: int, data: Any, reference: Any) -> float:
     """What the segment beside the open one adds to knot i's equation at c (side 0: the one before)."""
-    m, w, p, other = side_of(i, side, data.n)
+    m, w, p, other = side_of(i, side, data.ends)
     c, v = reference.c, reference.vc
     return c[m] * (w * v[j, i] + 2.0 * v[j, other] - p * data.d[m, j] * c[m])
 
 
 @compiled
-def _places(order: int, k: int, n: int, value: Any, is_open: Any, places: Any, work: Any) -> int:
+def _places(order: int, k: int, ends_of: Any, value: Any, is_open: Any, places: Any, work: Any) -> int:
     """Where derivative ``order`` of piece k, the polynomial value, can be extreme; returns the number.
 
     A knot is looked at on one piece only, except for the jerk, which jumps there, and except beside an
     open piece, whose own row would be slack.
     """
-    kind = piece_type(k, n)
+    kind, n = piece_type(k, ends_of), ends_of[0]
     top = (3 if kind == 1 else 4) - order
     found = 0
-    if order > 0 and (k > 0 or order == 3):
+    if order > 0 and (kind != 0 or order == 3):
         places[0] = 0.0
         found = 1
-    if (order == 3 and kind != 1) or (0 < order < 3 and k + 1 < n and is_open[k + 1]):
+    ends = is_open[k + 1] if k + 1 < n else kind == 1
+    if (order == 3 and kind != 1) or (0 < order < 3 and ends):
         places[found] = 1.0
         found += 1
     if top == 4:
@@ -90,11 +98,12 @@ def candidates(rows: Any, data: Any, reference: Any) -> int:
     n, d, limit, basis = data.n, data.d, data.limit, data.basis
     room_lo, room_hi = data.room_lo, data.room_hi
     c, is_open, vc = reference.c, reference.is_open, reference.vc
+    first, last = unknown_knots(data.ends)
     value, places, work = np.zeros(5), np.zeros(8), np.zeros(5)
     count = 0
     for j in range(d.shape[1]):
         for k in range(n):
-            kind = piece_type(k, n)
+            kind = piece_type(k, data.ends)
             for order in range(4):
                 if order == 0:
                     if is_open[k] or (room_lo[k, j] == np.inf and room_hi[k, j] == np.inf):
@@ -107,7 +116,7 @@ def candidates(rows: Any, data: Any, reference: Any) -> int:
                         + basis[order, kind, 1, i] * vc[j, k]
                         + basis[order, kind, 2, i] * vc[j, k + 1]
                     )
-                for e in range(_places(order, k, n, value, is_open, places, work)):
+                for e in range(_places(order, k, data.ends, value, is_open, places, work)):
                     s = places[e]
                     y = value[4]
                     for i in range(3, -1, -1):
@@ -129,6 +138,8 @@ def candidates(rows: Any, data: Any, reference: Any) -> int:
     for k in range(n):
         if not is_open[k] or (k > 0 and is_open[k - 1]) or (k + 1 < n and is_open[k + 1]):
             continue
+        if (k == 0 and first == 0) or (k + 1 == n and last == n):  # a is unknown at free ends
+            continue
         for j in range(d.shape[1]):
             if limit[2, j] == np.inf:
                 continue
@@ -144,7 +155,32 @@ def candidates(rows: Any, data: Any, reference: Any) -> int:
     rows[count, KIND], rows[count, SCALE] = TOTAL, 0.0
     for k in range(n):
         rows[count, SCALE] += 1.0 / c[k]
-    return count + 1
+    count += 1
+    for i in range(len(data.parts)):
+        rows[count, KIND], rows[count, SEGMENT], rows[count, SCALE] = PART, i, data.parts[i, 2]
+        count += 1
+    return count
+
+
+@inlined
+def _highest(row: Any, data: Any, box: Any, velocities: Any) -> float:
+    """By how much a limit inside a piece may be exceeded for some x and v in their enclosures, or 1."""
+    j, k, order = int(row[JOINT]), int(row[SEGMENT]), int(row[ORDER])
+    if order == 0:
+        return 1.0
+    s, sign, kind = row[PLACE], row[SIGN], piece_type(k, data.ends)
+    y = 0.0
+    for term in range(3):
+        w = 0.0
+        for p in range(4 - order, -1, -1):
+            w = w * s + data.basis[order, kind, term, p]
+        w *= sign
+        if term == 0:
+            w *= data.d[k, j]
+            y += 0.0 if w == 0.0 else max(w * box.lo[k], w * box.hi[k])
+        else:
+            y += max(w * velocities.lo[j, k + term - 1], w * velocities.hi[j, k + term - 1])
+    return float(y - data.limit[order - 1, j] / box.hi[k] ** (order - 1))
 
 
 @compiled
@@ -175,12 +211,14 @@ def linearise(form: Any, count: int, data: Any, box: Any, reference: Any, veloci
     """
     rows, a, g = form.rows, form.a, form.g
     n, d, limit, basis, lo = data.n, data.d, data.limit, data.basis, box.lo
+    V_lo, V_hi, dof, variables = velocities.lo, velocities.hi, d.shape[1], g.shape[1]
+    first, last = unknown_knots(data.ends)
     c, half, is_open, vc = reference.c, reference.half, reference.is_open, reference.vc
-    G, R = velocities.slopes, velocities.remainder
+    G, R, C = velocities.slopes, velocities.remainder, reference.C
     kept = 0
     for r in range(count):
         size = rows[r, SCALE]
-        for k in range(n):
+        for k in range(variables):
             g[kept, k] = 0.0
         if rows[r, KIND] == TOTAL:
             y = -data.L
@@ -188,6 +226,15 @@ def linearise(form: Any, count: int, data: Any, box: Any, reference: Any, veloci
                 if not is_open[k]:
                     y += 1.0 / c[k]
                     g[kept, k] = -1.0 / (c[k] * c[k])
+        elif rows[r, KIND] == PART:
+            part = data.parts[int(rows[r, SEGMENT])]
+            y = part[2]
+            for k in range(int(part[0]), int(part[1])):
+                if is_open[k]:
+                    y -= 1.0 / lo[k]
+                else:
+                    y -= 1.0 / c[k] + half[k] * half[k] / (c[k] * c[k] * lo[k])
+                    g[kept, k] = 1.0 / (c[k] * c[k])
         elif rows[r, KIND] == JUMP:
             j, k, sign = int(rows[r, JOINT]), int(rows[r, SEGMENT]), rows[r, SIGN]
             y = -limit[2, j] / lo[k]
@@ -195,7 +242,7 @@ def linearise(form: Any, count: int, data: Any, box: Any, reference: Any, veloci
                 i = k + side
                 if not 0 < i < n:
                     continue
-                m, w, p, other = side_of(i, side, n)
+                m, w, p, other = side_of(i, side, data.ends)
                 y += sign * _share_beside(j, i, side, data, reference)
                 y -= c[m] * (w * R[j, i] + 2.0 * R[j, other])
                 g[kept, m] += sign * (w * vc[j, i] + 2.0 * vc[j, other] - 2.0 * p * d[m, j] * c[m])
@@ -204,7 +251,7 @@ def linearise(form: Any, count: int, data: Any, box: Any, reference: Any, veloci
         else:
             j, k, order = int(rows[r, JOINT]), int(rows[r, SEGMENT]), int(rows[r, ORDER])
             s, sign = rows[r, PLACE], rows[r, SIGN]
-            kind = piece_type(k, n)
+            kind = piece_type(k, data.ends)
             y = 0.0
             for term in range(3):
                 w = 0.0
@@ -217,11 +264,14 @@ def linearise(form: Any, count: int, data: Any, box: Any, reference: Any, veloci
                         w -= data.room_hi[k, j] if sign > 0.0 else data.room_lo[k, j]
                     y += w * c[k]
                     g[kept, k] += w
-                elif 0 < k + term - 1 < n:
+                elif first <= k + term - 1 <= last:
                     i = k + term - 1
                     y += w * vc[j, i] - abs(w) * R[j, i]
                     for m in range(n):
                         g[kept, m] += w * G[j, i, m]
+                    for end in range(0, n + 1, n):
+                        if first <= end <= last:
+                            g[kept, variable_of(j, end, data.ends, dof)] += w * C[i, end]
             x, e = c[k], half[k]
             if order == 0:
                 pass
@@ -241,6 +291,14 @@ def linearise(form: Any, count: int, data: Any, box: Any, reference: Any, veloci
         for k in range(n):
             g[kept, k] *= half[k] / size
             most += abs(g[kept, k])
+        for k in range(n, variables):
+            if g[kept, k] != 0.0:
+                j, i = end_of(k, data.ends, dof)
+                g[kept, k] *= 0.5 * (V_hi[j, i] - V_lo[j, i]) / size
+                most += abs(g[kept, k])
+        if variables > n and rows[r, KIND] == PIECE and most > 0.0:
+            # velocities at free ends vary so much that the first order says little
+            most = _highest(rows[r], data, box, velocities)
         if most > 0.0:
             if kept != r:
                 copy(rows[kept], rows[r])

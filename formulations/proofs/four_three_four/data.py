@@ -8,6 +8,7 @@ import numpy as np
 
 from formulations.compiled import compiled
 from formulations.proofs.conditions import WIDTH, with_derivatives
+from formulations.proofs.four_three_four.ends import n_variables
 
 # what multiplies d, T v0, T v1 in a piece's position from its start:
 # (order, piece [first quartic, cubic, last quartic], term, power of s)
@@ -27,12 +28,15 @@ VARIES, UNIT, GONE = 0, 1, 2
 class RateData(NamedTuple):
     """The task of one attempt; the variables are the rates x_k = 1 / T_k.
 
-    n: number of segments. d, d_lo, d_hi: displacements and their enclosures, (n, dof) [rad]. limit
-    (3, dof): velocity, acceleration, jerk. room_lo, room_hi (n, dof): from the start of each segment to
-    the position limits below and above, rounded up [rad]. basis: ``BASIS``. L: the total time [s].
+    n: number of segments. ends: see ``ends``. d, d_lo, d_hi: displacements and their enclosures, (n, dof)
+    [rad]. limit (3, dof): velocity, acceleration, jerk. room_lo, room_hi (n, dof): from the start of each
+    segment to the position limits below and above, rounded up [rad]. basis: ``BASIS``. L: the total time
+    [s]. speed (dof,): bounds on the velocities [rad/s]. parts (m, 3): the
+    segments parts[i, 0] .. parts[i, 1] - 1 are known to take parts[i, 2] [s].
     """
 
     n: int
+    ends: Any
     d: Any
     d_lo: Any
     d_hi: Any
@@ -41,6 +45,8 @@ class RateData(NamedTuple):
     room_hi: Any
     basis: Any
     L: float
+    speed: Any
+    parts: Any
 
 
 class Reference(NamedTuple):
@@ -81,7 +87,9 @@ class VelocityEnclosure(NamedTuple):
 class RateForm(NamedTuple):
     """Rows, and their first-order form a_i + g_i . e <= 0, e in [-1, 1]^n, about the reference.
 
-    rows (m, WIDTH), a (m,), g (m, n), multipliers (m,); few (n+1, WIDTH): the rows of a discard.
+    rows (m, WIDTH), a (m,), g (m, n_variables), multipliers (m,); few (n_variables+1, WIDTH): the rows of
+    a discard. The variables are the n of x, then the velocities at the free ends, see ``n_variables``;
+    smear (n_variables,): how much the rows of the last discard depend on each of the latter.
     """
 
     rows: Any
@@ -89,6 +97,7 @@ class RateForm(NamedTuple):
     g: Any
     multipliers: Any
     few: Any
+    smear: Any
 
 
 class LagrangianSums(NamedTuple):
@@ -155,23 +164,24 @@ def empty_enclosure(n: int, dof: int) -> VelocityEnclosure:
 
 
 @compiled
-def empty_form(n: int, dof: int) -> RateForm:
+def empty_form(data: RateData) -> RateForm:
     """Make room for the most rows that a box can have.
 
     Parameters
     ----------
-    n, dof : int
-        Segments and moving joints.
+    data : RateData
+        The task.
 
     Returns
     -------
     RateForm
         Zeros.
     """
-    most = dof * n * 17 + 1
+    n, variables = data.d.shape[0], n_variables(data.ends, data.d.shape[1])
+    most = data.d.shape[1] * n * 19 + 1 + len(data.parts)
     return RateForm(
-        np.zeros((most, WIDTH)), np.zeros(most), np.zeros((most, n)), np.zeros(most),
-        np.zeros((n + 1, WIDTH)),
+        np.zeros((most, WIDTH)), np.zeros(most), np.zeros((most, variables)), np.zeros(most),
+        np.zeros((variables + 1, WIDTH)), np.zeros(variables),
     )  # fmt: skip
 
 
@@ -194,64 +204,3 @@ def empty_sums(n: int, dof: int) -> LagrangianSums:
         np.zeros((dof, n + 1)), np.zeros((dof, n + 1)), np.zeros(dof, np.bool_), np.zeros((dof, n + 1)),
         np.zeros((n, 2)), np.zeros((n, 2)), np.zeros((n, 2)), np.zeros(n + 1), np.zeros(n + 1),
     )  # fmt: skip
-
-
-@compiled
-def piece_type(m: int, n: int) -> int:
-    """Which kind of piece segment m of n is.
-
-    Parameters
-    ----------
-    m, n : int
-        The segment, and the number of segments.
-
-    Returns
-    -------
-    int
-        0: first quartic, 1: cubic, 2: last quartic.
-    """
-    return 0 if m == 0 else (2 if m == n - 1 else 1)
-
-
-@compiled
-def weights(m: int, n: int) -> tuple[float, float, float, float]:
-    """The weights w, p of segment m in the equations of its left and of its right knot.
-
-    Parameters
-    ----------
-    m, n : int
-        The segment, and the number of segments.
-
-    Returns
-    -------
-    wr, pr, wl, pl : float
-        In the left knot's equation (where it is the segment on the right), and in the right knot's.
-    """
-    wr, pr = (6.0, 12.0) if m == n - 1 else (4.0, 6.0)
-    wl, pl = (6.0, 12.0) if m == 0 else (4.0, 6.0)
-    return wr, pr, wl, pl
-
-
-@compiled
-def side_of(i: int, side: int, n: int) -> tuple[int, float, float, int]:
-    """The share of one neighbouring segment in the equation of knot i: x_m (w v_i + 2 v_other - p d_m x_m).
-
-    Parameters
-    ----------
-    i, side, n : int
-        The knot; 0 for the segment before it, 1 for the one after; the number of segments.
-
-    Returns
-    -------
-    m : int
-        The segment.
-    w, p : float
-        4 and 6, but 6 and 12 for the quartic end pieces.
-    other : int
-        The other waypoint of the segment.
-    """
-    m = i - 1 + side
-    wr, pr, wl, pl = weights(m, n)
-    if side == 0:
-        return m, wl, pl, i - 1
-    return m, wr, pr, i + 1

@@ -33,13 +33,15 @@ from formulations.proofs.conditions import (
     KIND,
     MULTIPLIER,
     ORDER,
+    PART,
     PLACE,
     SCALE,
     SEGMENT,
     SIGN,
     TOTAL,
 )
-from formulations.proofs.four_three_four.data import GONE, UNIT, piece_type, side_of
+from formulations.proofs.four_three_four.data import GONE, UNIT
+from formulations.proofs.four_three_four.ends import piece_type, side_of, unknown_knots
 from formulations.proofs.four_three_four.velocities import strays
 
 
@@ -93,6 +95,11 @@ def sum_rows(
             const = down(const - up(lam * data.L))
             for k in range(n):
                 shares[k, 3] = down(shares[k, 3] + lam)
+        elif rows[r, KIND] == PART:
+            part = data.parts[int(rows[r, SEGMENT])]
+            const = down(const + down(lam * part[2]))
+            for k in range(int(part[0]), int(part[1])):
+                shares[k, 4] = up(shares[k, 4] + lam)
         elif rows[r, KIND] == JUMP:
             const = _add_jump(const, rows[r], data, box, sums)
         else:
@@ -120,12 +127,13 @@ def _add_jump(const: float, row: Any, data: Any, box: Any, sums: Any) -> float:
 @inlined
 def _add_piece(const: float, row: Any, data: Any, reference: Any, sums: Any) -> float:
     """Add a limit inside a piece; returns the new constant."""
-    shares, limit, n = sums.shares, data.limit, data.n
+    shares, limit = sums.shares, data.limit
     lam = row[MULTIPLIER] / row[SCALE]
     j, k, order = int(row[JOINT]), int(row[SEGMENT]), int(row[ORDER])
     s, g = row[PLACE], row[SIGN] * lam
-    terms = data.basis[order, piece_type(k, n)]
+    terms = data.basis[order, piece_type(k, data.ends)]
     sums.used[j] = True
+    first, last = unknown_knots(data.ends)
     lo, hi = horner(terms[0], 5 - order, s)
     lo, hi = multiply(lo, hi, data.d_lo[k, j], data.d_hi[k, j])
     lo, hi = scale(g, lo, hi)
@@ -136,7 +144,7 @@ def _add_piece(const: float, row: Any, data: Any, reference: Any, sums: Any) -> 
     const = down(const + scale(reference.c[k], lo, hi)[0])  # alpha x = alpha c + alpha (x - c)
     for side in range(2):
         i = k + side
-        if 0 < i < n:
+        if first <= i <= last:
             lo, hi = horner(terms[1 + side], 5 - order, s)
             lo, hi = scale(g, lo, hi)
             sums.weight_lo[j, i], sums.weight_hi[j, i] = add(
@@ -157,18 +165,19 @@ def _choose_mu(j: int, data: Any, reference: Any, sums: Any) -> None:
     n, c, state, C = data.n, reference.c, reference.state, reference.C
     extra, mu, etas = sums.extra, sums.mu, sums.eta
     weight_lo, weight_hi = sums.weight_lo, sums.weight_hi
+    first, last = unknown_knots(data.ends)
     for i in range(n + 1):
         extra[i] = 0.0
     for i in range(1, n):
         for side in range(2):
             eta = etas[j, i]
             if eta != 0.0 and state[i, side] == GONE and state[i, 1 - side] == UNIT:
-                m, w, _, other = side_of(i, side, n)
+                m, w, _, other = side_of(i, side, data.ends)
                 extra[i] += w * eta * c[m]
                 extra[other] += 2.0 * eta * c[m]
     for e in range(1, n):
         y = 0.0
-        for i in range(1, n):
+        for i in range(first, last + 1):
             y -= (0.5 * (weight_lo[j, i] + weight_hi[j, i]) + extra[i]) * C[i, e]
         dropped = state[e, 0] == GONE and state[e, 1] == GONE
         mu[e] = 0.0 if dropped else y
@@ -183,6 +192,7 @@ def _add_knots(
     factor_lo, factor_hi, cross = sums.factor_lo, sums.factor_hi, sums.cross
     d_lo, d_hi, eta, ce = data.d_lo, data.d_hi, sums.eta, reference.ce
     V_lo, V_hi = velocities.lo, velocities.hi
+    first, last = unknown_knots(data.ends)
     stray_lo, stray_hi = velocities.stray_lo, velocities.stray_hi
     for m in range(n):
         for side in range(2):
@@ -199,7 +209,7 @@ def _add_knots(
                 if eta[j, i] == 0.0 or state[i, 1 - side] != UNIT:
                     continue
                 weight, centre = eta[j, i], c[i - 1 + side]
-            m, w, p, other = side_of(i, side, n)
+            m, w, p, other = side_of(i, side, data.ends)
             f_lo, f_hi = scale(weight, w, w)  # factor of x_m v_i (of v_i if UNIT)
             g = 2.0 * weight  # and of v_other
             if state[i, side] != UNIT:
@@ -210,11 +220,11 @@ def _add_knots(
                 cross[m, side] = g
             a_lo, a_hi = scale(centre, f_lo, f_hi)
             rest_lo[i], rest_hi[i] = add(rest_lo[i], rest_hi[i], a_lo, a_hi)
-            if 0 < other < n:
+            if first <= other <= last:
                 a_lo, a_hi = scale(centre, g, g)
                 rest_lo[other], rest_hi[other] = add(rest_lo[other], rest_hi[other], a_lo, a_hi)
     _add_bilinear(j, data, box, velocities, sums)
-    for i in range(1, n):  # the v-terms at x = c: nearly zero by the choice of mu
+    for i in range(first, last + 1):  # the v-terms at x = c: nearly zero by the choice of mu
         least = multiply(rest_lo[i], rest_hi[i], V_lo[j, i], V_hi[j, i])[0]
         const = down(const + least)
     return const
@@ -227,19 +237,20 @@ def _add_bilinear(j: int, data: Any, box: Any, velocities: Any, sums: Any) -> No
     """
     n, shares, V_lo, V_hi = data.n, sums.shares, velocities.lo, velocities.hi
     factor_lo, factor_hi, cross = sums.factor_lo, sums.factor_hi, sums.cross
+    first, last = unknown_knots(data.ends)
     for m in range(n):
-        left, right = m > 0, m < n - 1
+        left, right = m >= first, m < last
         if box.hi[m] == np.inf:
             continue
         if left:
             a_lo, a_hi = factor_lo[m, 1], factor_hi[m, 1]
-            if right:
+            if cross[m, 0] != 0.0:
                 a_lo, a_hi = add(a_lo, a_hi, cross[m, 0], cross[m, 0])
             a_lo, a_hi = multiply(a_lo, a_hi, V_lo[j, m], V_hi[j, m])
             shares[m, 0], shares[m, 1] = add(shares[m, 0], shares[m, 1], a_lo, a_hi)
         if right:
             a_lo, a_hi = factor_lo[m, 0], factor_hi[m, 0]
-            if left:
+            if cross[m, 1] != 0.0:
                 a_lo, a_hi = add(a_lo, a_hi, cross[m, 1], cross[m, 1])
             a_lo, a_hi = multiply(a_lo, a_hi, V_lo[j, m + 1], V_hi[j, m + 1])
             shares[m, 0], shares[m, 1] = add(shares[m, 0], shares[m, 1], a_lo, a_hi)

@@ -23,9 +23,9 @@ from formulations.proofs.events import (
     Box,
     copy,
     has_room,
-    push_halves,
     write,
 )
+from formulations.proofs.four_three_four.branching import choose_variable, middle_of, push_both_halves
 from formulations.proofs.four_three_four.conditions import candidates, linearise
 from formulations.proofs.four_three_four.data import (
     empty_enclosure,
@@ -39,21 +39,33 @@ from formulations.proofs.four_three_four.velocities import enclose
 from formulations.proofs.multipliers import minimax
 
 STACK = 2000
-SHORT = 1e-10  # of L: an open segment this short is not split further
 _TURNS = 6  # rounds of cuts on one box before it is split
 _SWEEPS = 2  # of the enclosure of the velocities per round
 
 
 @inlined
 def _cut_by_total(box: Any, data: Any) -> bool:
-    """Cut the box by T_k = L - the others, twice; returns False if nothing is left."""
-    lo, hi, n, L = box.lo, box.hi, data.n, data.L
+    """Cut the box by T_k = L - the others, twice; returns False if nothing is left.
+
+    The least time of the others is the most that the parts and the ends of x imply together.
+    """
+    lo, hi, n, L, parts = box.lo, box.hi, data.n, data.L, data.parts
+    before, after = np.zeros((2, n + 1))
     for _ in range(2):
-        t_lo, t_hi = 0.0, 0.0
+        t_hi = 0.0
         for k in range(n):
-            t_lo, t_hi = down(t_lo + down(1.0 / hi[k])), up(t_hi + up(1.0 / lo[k]))
+            t_hi = up(t_hi + up(1.0 / lo[k]))
+            before[k + 1] = down(before[k] + down(1.0 / hi[k]))
+            for p in range(len(parts)):
+                if parts[p, 1] == k + 1:
+                    before[k + 1] = max(before[k + 1], down(before[int(parts[p, 0])] + parts[p, 2]))
+        for k in range(n - 1, -1, -1):
+            after[k] = down(after[k + 1] + down(1.0 / hi[k]))
+            for p in range(len(parts)):
+                if parts[p, 0] == k:
+                    after[k] = max(after[k], down(after[int(parts[p, 1])] + parts[p, 2]))
         for k in range(n):
-            most = up(L - down(t_lo - up(1.0 / hi[k])))
+            most = up(L - down(before[k] + after[k + 1]))
             least = down(L - up(t_hi - down(1.0 / lo[k])))
             if not most > 0.0:
                 return False
@@ -71,7 +83,7 @@ def _narrowed(box: Any, data: Any, reference: Any, velocities: Any, trace: Any, 
     left = _cut_by_total(box, data)
     write(trace, TURN, 0, 0.0, box, few, 0)
     if left:
-        place_reference(reference, box, data)
+        place_reference(reference, box, data, velocities)
         for j in range(data.d.shape[1]):
             for _ in range(_SWEEPS):
                 left = left and enclose(j, data, box, reference, velocities)
@@ -98,10 +110,17 @@ def _single_row(k: int, side: int, count: int, form: Any) -> tuple[int, float]:
 
 
 @inlined
-def _choose_rows(form: Any, count: int, n: int) -> int:
-    """Put the rows with the multipliers of the linear program into ``few``; returns their number."""
-    few, lam = form.few, form.multipliers
+def _choose_rows(form: Any, count: int, n_segments: int) -> int:
+    """Put the rows with the multipliers of the linear program into ``few``; returns their number.
+
+    How much they depend on each velocity at a free end is kept for the choice of the variable to split.
+    """
+    few, lam, n = form.few, form.multipliers, form.g.shape[1]
     minimax(form.a, form.g, count, n, lam, 200)
+    for k in range(n_segments, n):
+        form.smear[k] = 0.0
+        for i in range(count):
+            form.smear[k] += lam[i] * abs(form.g[i, k])
     kept = 0
     for i in range(count):
         if lam[i] > 1e-13 and kept < n + 1:
@@ -201,6 +220,7 @@ def _reduced_to_nothing(
     box: Any, data: Any, reference: Any, velocities: Any, form: Any, sums: Any, trace: Any
 ) -> bool:
     """Narrow the box turn by turn as long as that helps; returns whether nothing is left."""
+    form.smear[:] = 0.0
     for _ in range(_TURNS):
         if not _narrowed(box, data, reference, velocities, trace, form.few):
             trace.counts[EMPTIES] += 1
@@ -248,8 +268,8 @@ def branch_and_bound(
     stuck : bool
         Whether the box at depth - 1 is undecided and too narrow to be split.
     """
-    n, dof, shortest = data.n, data.d.shape[1], SHORT * data.L
-    form, sums = empty_form(n, dof), empty_sums(n, dof)
+    n, dof = data.n, data.d.shape[1]
+    form, sums = empty_form(data), empty_sums(n, dof)
     reference, velocities = empty_reference(n, dof), empty_enclosure(n, dof)
     box = Box(np.empty(n), np.empty(n))
     lo, hi = box
@@ -264,11 +284,7 @@ def branch_and_bound(
         trace.counts[BOXES] += 1
         if _reduced_to_nothing(box, data, reference, velocities, form, sums, trace):
             continue
-        x, widest = 0, -1.0
-        for k in range(n):
-            width = np.log(hi[k] / lo[k]) if hi[k] < np.inf else np.log(1.0 / (lo[k] * shortest))
-            if width > widest:
-                x, widest = k, width
+        x, widest = choose_variable(box, data, velocities, form.smear)
         if widest < effort.narrow or depth > STACK - 3:
             if not effort.aside:
                 copy(stack[depth, 0], lo)
@@ -276,12 +292,7 @@ def branch_and_bound(
                 return depth + 1, True
             write(trace, ASIDE, 0, 0.0, box, form.few, 0)
             continue
-        middle = np.sqrt(lo[x] * hi[x]) if hi[x] < np.inf else np.sqrt(lo[x] / shortest)
-        push_halves(stack, depth, box, x, middle)
-        for _ in range(2):
-            for j in range(dof):
-                copy(stack_v[depth, 0, j], velocities.lo[j])
-                copy(stack_v[depth, 1, j], velocities.hi[j])
-            depth += 1
+        middle = middle_of(box, x, data, velocities)
+        depth = push_both_halves(stack, stack_v, depth, box, x, middle, data, velocities)
         write(trace, SPLIT, x, middle, box, form.few, 0)
     return depth, False

@@ -21,7 +21,8 @@ import numpy as np
 
 from formulations.compiled import compiled, inlined
 from formulations.proofs.arithmetic.outward import add, down, multiply, scale, up
-from formulations.proofs.four_three_four.data import GONE, UNIT, VARIES, side_of, weights
+from formulations.proofs.four_three_four.data import GONE, UNIT, VARIES
+from formulations.proofs.four_three_four.ends import side_of, unknown_knots, weights
 
 
 @compiled
@@ -51,7 +52,7 @@ def strays(j: int, data: Any, box: Any, state: Any, velocities: Any) -> None:
         for side in range(2):
             if state[i, side] != GONE or state[i, 1 - side] != UNIT:
                 continue
-            m, w, p, other = side_of(i, side, n)
+            m, w, p, other = side_of(i, side, data.ends)
             opened = i - side
             a_lo, a_hi = scale(w, V_lo[j, i], V_hi[j, i])
             a_lo, a_hi = add(a_lo, a_hi, 2.0 * V_lo[j, other], 2.0 * V_hi[j, other])
@@ -68,13 +69,14 @@ def _residuals(j: int, data: Any, reference: Any, velocities: Any, y_lo: Any, y_
     n, C, vc, ce = data.n, reference.C, reference.vc, reference.ce
     stray_lo, stray_hi, R = velocities.stray_lo, velocities.stray_hi, velocities.remainder
     d_lo, d_hi = data.d_lo, data.d_hi
+    first, last = unknown_knots(data.ends)
     for e in range(1, n):
         p, q = -stray_hi[e], -stray_lo[e]
         if stray_hi[e] > stray_lo[e]:
-            for i in range(1, n):
+            for i in range(first, last + 1):
                 R[j, i] += abs(C[i, e]) * max(abs(p), abs(q))
         for side in range(2):
-            m, w, f, at = side_of(e, side, n)
+            m, w, f, at = side_of(e, side, data.ends)
             other = vc[j, at]
             s_lo, s_hi = multiply(down(f * d_lo[m, j]), up(f * d_hi[m, j]), ce[e, side], ce[e, side])
             t = w * vc[j, e]
@@ -82,7 +84,7 @@ def _residuals(j: int, data: Any, reference: Any, velocities: Any, y_lo: Any, y_
             s_lo, s_hi = add(s_lo, s_hi, -e_hi, -e_lo)
             s_lo, s_hi = scale(ce[e, side], s_lo, s_hi)
             p, q = add(p, q, s_lo, s_hi)
-        for i in range(1, n):
+        for i in range(first, last + 1):
             s_lo, s_hi = scale(C[i, e], p, q)
             y_lo[i], y_hi[i] = add(y_lo[i], y_hi[i], s_lo, s_hi)
 
@@ -93,12 +95,13 @@ def _slopes(j: int, data: Any, box: Any, reference: Any, velocities: Any, y_lo: 
     n, lo, hi, d, d_lo, d_hi = data.n, box.lo, box.hi, data.d, data.d_lo, data.d_hi
     c, C, vc, state = reference.c, reference.C, reference.vc, reference.state
     V_lo, V_hi, G, R = velocities.lo, velocities.hi, velocities.slopes, velocities.remainder
+    first, last = unknown_knots(data.ends)
     for m in range(n):
         if hi[m] == np.inf:  # open: constant coefficients
-            for i in range(1, n):
+            for i in range(first, last + 1):
                 G[j, i, m] = 0.0
             continue
-        wr, pr, wl, pl = weights(m, n)
+        wr, pr, wl, pl = weights(m, data.ends)
         e_lo, e_hi = down(lo[m] - c[m]), up(hi[m] - c[m])
         half = max(-e_lo, e_hi)
         x_lo, x_hi = down(c[m] + lo[m]), up(c[m] + hi[m])
@@ -112,7 +115,7 @@ def _slopes(j: int, data: Any, box: Any, reference: Any, velocities: Any, y_lo: 
             b_lo = down(down(pl * x_lo) - up(2.0 * V_hi[j, m] + up(wl * V_hi[j, m + 1])))
             b_hi = up(up(pl * x_hi) - down(2.0 * V_lo[j, m] + down(wl * V_lo[j, m + 1])))
             b = 2.0 * pl * d[m, j] * c[m] - (2.0 * vc[j, m] + wl * vc[j, m + 1])
-        for i in range(1, n):
+        for i in range(first, last + 1):
             p_lo, p_hi = scale(C[i, m], a_lo, a_hi)
             q_lo, q_hi = scale(C[i, m + 1], b_lo, b_hi)
             s_lo, s_hi = add(p_lo, p_hi, q_lo, q_hi)
@@ -145,12 +148,13 @@ def enclose(j: int, data: Any, box: Any, reference: Any, velocities: Any) -> boo
     bool
         False if no velocity is left: the box holds no feasible motion.
     """
-    n, vc, rest, R = data.n, reference.vc, reference.rest, velocities.remainder
+    vc, rest, R = reference.vc, reference.rest, velocities.remainder
     V_lo, V_hi = velocities.lo, velocities.hi
-    y_lo, y_hi = np.zeros(n + 1), np.zeros(n + 1)
-    for i in range(1, n):
+    first, last = unknown_knots(data.ends)
+    y_lo, y_hi = np.zeros(data.n + 1), np.zeros(data.n + 1)
+    for i in range(first, last + 1):
         s = 0.0  # (I - C A(c)) (v - v_c)
-        for e in range(1, n):
+        for e in range(first, last + 1):
             y = max(abs(up(V_hi[j, e] - vc[j, e])), abs(down(V_lo[j, e] - vc[j, e])))
             s = up(s + up(rest[i, e] * y))
         y_lo[i], y_hi[i] = -s, s
@@ -158,7 +162,7 @@ def enclose(j: int, data: Any, box: Any, reference: Any, velocities: Any) -> boo
     strays(j, data, box, reference.state, velocities)
     _residuals(j, data, reference, velocities, y_lo, y_hi)
     _slopes(j, data, box, reference, velocities, y_lo, y_hi)
-    for i in range(1, n):
+    for i in range(first, last + 1):
         least = max(V_lo[j, i], down(vc[j, i] + y_lo[i]))
         most = min(V_hi[j, i], up(vc[j, i] + y_hi[i]))
         if not least <= most:
