@@ -88,8 +88,8 @@ def sums_of(forms: Forms, limits: Limits, lo: Any, hi: Any, rows: Rows) -> Sums:
     terms, rest = np.zeros((len(rows.total), forms.of.K)), np.zeros(len(rows.total))
     fit = known.fit.copy()
     for order in range(4):
-        some = np.flatnonzero(rows.order == order)
-        if len(some):
+        of_order = np.flatnonzero(rows.order == order)
+        for some in np.array_split(of_order, -(-len(of_order) // count)) if len(of_order) else ():
             part = Rows(*(values[some] for values in rows))
             terms[some], rest[some], good = _limits_of_order(forms, limits, boxes, order, part, known)
             np.logical_and.at(fit, part.total, good)
@@ -183,7 +183,7 @@ def least_of(of: Monomials, sums: Sums, which: Any, k: Any, lo: Any, hi: Any) ->
     c, h = (values[k[some], which[some]] for values in sums.boxes)
     below[k[some] - 1, some] = np.maximum((lo[some] - c) / h - 2.0**-50, -1.0)
     above[k[some] - 1, some] = np.minimum((hi[some] - c) / h + 2.0**-50, 1.0)
-    bend = -of.share.T @ np.abs(terms[of.cube])
+    bend = -GROW * (of.share.T @ np.abs(terms[of.cube]))
     for (q, r), square in zip(of.of_square, terms[of.square], strict=True):
         if q == r:
             bend[q] += square

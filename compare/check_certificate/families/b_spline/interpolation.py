@@ -77,10 +77,7 @@ def interpolation(forms: Forms, lo: Any, hi: Any, boxes: Boxes, x: Any, wanted: 
     inner = slice(3, n + 2)
     rows[~fit], rest[~fit] = 0.0, 0.0
     rows[~fit, :, inner, 0] = np.eye(n - 1)
-    try:
-        Y = np.linalg.inv(rows[:, :, inner, 0])
-    except np.linalg.LinAlgError:  # one of them is singular in floats
-        Y = np.stack([np.linalg.pinv(a) for a in rows[:, :, inner, 0]])
+    Y = _about_inverse(rows[:, :, inner, 0])
     alternating = np.zeros(n + 1)
     alternating[1:n] = (-1.0) ** np.arange(n - 1)
     points, motion, sigma = _solve(forms, rows, rest, Y, alternating)
@@ -100,6 +97,16 @@ def interpolation(forms: Forms, lo: Any, hi: Any, boxes: Boxes, x: Any, wanted: 
             for into, values in zip((found.points, found.motion, found.sigma), solution, strict=True):
                 into[some, j] = values
     return found
+
+
+def _about_inverse(matrices: Any) -> Any:
+    """Inverses of matrices in floats; zeros, which prove nothing, for one that is singular in floats."""
+    try:
+        return np.linalg.inv(matrices)
+    except np.linalg.LinAlgError:
+        if len(matrices) == 1:
+            return np.zeros_like(matrices)
+        return np.concatenate([_about_inverse(one[None]) for one in matrices])
 
 
 def collocation(forms: Forms, lo: Any, hi: Any, boxes: Boxes) -> tuple[Any, Any, Any]:

@@ -4,11 +4,11 @@ In e = (t - c) / h, whose entries lie in [-1, 1], a model encloses a function by
 and a rest: |f(e) - P(e)| <= rest. The terms of P stand on one axis of length K: the constant, the m slopes,
 then the squares e_q e_r for q <= r and the cubes e_q e_r e_s for q <= r <= s, in lexicographic order.
 
-Rounding. u = 2^-53. A term that is computed below is a sum of at most 100 products of at most three floats,
-so its error is at most 110 u times the sum of their sizes, whatever the order of summation: ``ERR`` = 128 u.
-Where terms enter, ERR times the product of their sizes is added to the rest. A rest is computed from
-numbers >= 0 by +, * and / alone, with at most 2,000 operations one after the other: the factor ``GROW``
-covers their roundings, and ``TINY`` what underflow loses.
+Rounding. u = 2^-53, and there are at most ``MOST_VARIABLES``. A term that is computed below is a sum of at
+most 100 products of at most three floats, so its error is at most 110 u times the sum of their sizes,
+whatever the order of summation: where terms enter, ``ERR`` = 128 u times the product of their sizes is added
+to the rest. A rest is computed from numbers >= 0 by sums, products and quotients, with less than 2^18
+operations one after the other: the factor ``GROW`` covers their roundings, and ``TINY`` what underflow loses.
 """
 
 from __future__ import annotations
@@ -19,7 +19,8 @@ from typing import Any
 
 import numpy as np
 
-ERR, GROW, TINY = 2.0**-46, 1.0 + 2.0**-40, 1e-290
+ERR, GROW, TINY = 2.0**-46, 1.0 + 2.0**-34, 1e-290
+MOST_VARIABLES = 23
 
 
 class Monomials:

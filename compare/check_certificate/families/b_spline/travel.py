@@ -24,7 +24,7 @@ from typing import Any, NamedTuple
 
 import numpy as np
 
-_LESS, _MORE = 1.0 - 2.0**-51, 1.0 + 2.0**-51
+_MORE = 1.0 + 2.0**-50
 
 
 class Travel(NamedTuple):
@@ -54,7 +54,7 @@ def cut(task: Travel, lo: Any, hi: Any) -> Any:
     n, joints = task.least.shape
     shortest = np.maximum(_down(lo[1:] - hi[:-1]), 0.0)
     longest = _up(hi[1:] - lo[:-1])
-    left = (longest > 0.0).all(axis=0)
+    left = ~(longest <= 0.0).any(axis=0)  # what is no number proves nothing
     longest = np.maximum(longest, 0.0)
     for j in range(joints):
         most = np.full_like(lo, task.speed[j])
@@ -66,7 +66,7 @@ def cut(task: Travel, lo: Any, hi: Any) -> Any:
         lo[k] = np.maximum(lo[k], _down(lo[k - 1] + shortest[k - 1]))
     for k in range(n - 1, 0, -1):
         hi[k] = np.minimum(hi[k], _up(hi[k + 1] - shortest[k]))
-    return left & (lo <= hi).all(axis=0) & (_down(lo[n - 1] + shortest[n - 1]) <= hi[n])
+    return left & ~(lo > hi).any(axis=0) & ~(_down(lo[n - 1] + shortest[n - 1]) > hi[n])
 
 
 def _down(x: Any) -> Any:
@@ -85,14 +85,14 @@ def _cut_segment(task: Travel, j: int, k: int, shortest: Any, longest: Any, velo
     for i, o in ((k, k + 1), (k + 1, k)):
         v_lo[i] = np.maximum(v_lo[i], _down(v_lo[o] - change))
         v_hi[i] = np.minimum(v_hi[i], _up(v_hi[o] + change))
-    left = (v_lo[k] <= v_hi[k]) & (v_lo[k + 1] <= v_hi[k + 1])
+    left = ~(v_lo[k] > v_hi[k]) & ~(v_lo[k + 1] > v_hi[k + 1])
     if not d > 0.0:
         return left
     # in the direction of the displacement
     slow, fast = (v_lo, v_hi) if task.sign[k, j] > 0.0 else (-v_hi, -v_lo)
     for i, o in ((k, k + 1), (k + 1, k)):
         slow[i] = _slowest(d, slow[i], fast[o], (shortest[k], longest[k]), V, A)
-        left &= slow[i] <= fast[i]
+        left &= ~(slow[i] > fast[i])
     left &= ~(_reach(fast[k], fast[k + 1], longest[k], V, A) < d)
     shortest[k] = _shortest(d, fast[k], fast[k + 1], shortest[k], V, A)
     velocities[:] = (slow, fast) if task.sign[k, j] > 0.0 else (-fast, -slow)

@@ -18,10 +18,12 @@ from compare.check_certificate.balls import R
 from compare.check_certificate.claim import MOST_SEGMENTS, Claim, index, items, real
 from compare.check_certificate.families.b_spline.conditions import Limits, Rows, least_of, sums_of
 from compare.check_certificate.families.b_spline.knots import Forms
+from compare.check_certificate.families.b_spline.taylor import MOST_VARIABLES
 from compare.check_certificate.families.b_spline.travel import Travel, cut
 
 _CUTS = 2_000  # boxes whose cuts are verified at once
 _FLOATS = 4_000_000  # in the models that are made at once
+_LEAST, _MOST = 1e-40, 1e40  # sizes of numbers in SI units, beside 0
 _ROUNDS = 4  # of cuts by travel; the prover makes two
 
 Ends = tuple[list[float], list[float]]
@@ -51,8 +53,7 @@ class BSplineTree:
         self.cuts: list[tuple[str, Ends, Ends | None]] = []
         self.sums: list[tuple[Ends, list[Any]]] = []
         self.discards: list[tuple[str, int, int, float, float]] = []
-        most = self.forms.of.K * (claim.n + 5) * (claim.n + len(claim.moving) + 60)
-        self.batch = max(_FLOATS // most, 1)
+        self.batch = max(_FLOATS // (self.forms.of.K * (claim.n + 5) * (claim.n + 5)), 1)
 
     def _limits(self) -> Limits:
         claim = self.claim
@@ -66,8 +67,18 @@ class BSplineTree:
         x = np.array([[float(row[j]) for j in claim.moving] for row in claim.w])
         return Limits(x, level)
 
+    def _moderate(self) -> bool:
+        """Whether products of a few numbers of the problem stay far within the range of floats."""
+        claim = self.claim
+        numbers = [claim.L, *(x for row in claim.limits for x in row if x is not None)]
+        numbers += [abs(x) for rows in (claim.w, claim.d) for row in rows for x in row if x != 0]
+        return all(bool(_LEAST < x) and bool(x < _MOST) for x in numbers)
+
     def replay(self) -> int:
         """Verify every event; returns the number of discards."""
+        most = MOST_VARIABLES + 1
+        need(self.claim.n <= most, f"B-splines of more than {most} segments are not checked")
+        need(self._moderate(), f"a number is not 0 and not from {_LEAST:g} to {_MOST:g}")
         discards = 0
         for _ in self._events():
             if len(self.cuts) >= _CUTS:
@@ -186,8 +197,8 @@ class BSplineTree:
             with np.errstate(all="ignore"):
                 left = cut(self.travel, *part)
             lo[:, open_], hi[:, open_] = part
-            short = (lo < claimed[0]).any(axis=0) | (hi > claimed[1]).any(axis=0)
-            open_ = open_[left & short[open_]]
+            inside = (lo >= claimed[0]).all(axis=0) & (hi <= claimed[1]).all(axis=0)
+            open_ = open_[left & ~inside[open_]]
             if not len(open_):
                 return
         raise Refused(f"{cuts[open_[0]][0]}: travel leaves more of the box than is stated")
