@@ -62,6 +62,7 @@ class Sums(NamedTuple):
     boxes: Boxes
 
 
+@np.errstate(all="ignore")  # what overflows is not finite in the end and proves nothing
 def sums_of(forms: Forms, limits: Limits, lo: Any, hi: Any, rows: Rows) -> Sums:
     """Model sums of limits, each over a box of its own.
 
@@ -153,6 +154,7 @@ def _beyond(of: Monomials, a: Any, a_rest: Any, rows: Rows, known: Interpolation
     return (((w + vary) * sigma).sum(axis=1) + (beyond * zeta).sum(axis=1)) * GROW
 
 
+@np.errstate(all="ignore")
 def least_of(of: Monomials, sums: Sums, which: Any, k: Any, lo: Any, hi: Any) -> Any:
     """Bound sums from below over slabs of their boxes.
 

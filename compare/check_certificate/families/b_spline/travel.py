@@ -36,6 +36,8 @@ class Travel(NamedTuple):
     acceleration: Any
 
 
+# no number comes of a root that is not there: it fails every comparison
+@np.errstate(all="ignore")
 def cut(task: Travel, lo: Any, hi: Any) -> Any:
     """Cut boxes by what every joint can cover in every segment.
 

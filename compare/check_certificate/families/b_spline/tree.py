@@ -194,8 +194,7 @@ class BSplineTree:
         open_ = np.arange(len(cuts))
         for _ in range(_ROUNDS):
             part = lo[:, open_], hi[:, open_]
-            with np.errstate(all="ignore"):
-                left = cut(self.travel, *part)
+            left = cut(self.travel, *part)
             lo[:, open_], hi[:, open_] = part
             inside = (lo >= claimed[0]).all(axis=0) & (hi <= claimed[1]).all(axis=0)
             open_ = open_[left & ~inside[open_]]
@@ -216,11 +215,8 @@ class BSplineTree:
             np.array(place), np.array(multiplier),
         )  # fmt: skip
         where, which, k, first, last = zip(*discards, strict=True)
-        with np.errstate(all="ignore"):
-            models = sums_of(self.forms, self.limits, lo, hi, rows)
-            least = least_of(
-                self.forms.of, models, np.array(which), np.array(k), np.array(first), np.array(last)
-            )
+        models = sums_of(self.forms, self.limits, lo, hi, rows)
+        least = least_of(self.forms.of, models, *map(np.array, (which, k, first, last)))
         for i in np.flatnonzero(~(least > 0.0))[:1]:
             raise Refused(f"{where[i]}: the {'slab' if k[i] else 'box'} is not discarded")
         return len(discards)
