@@ -15,9 +15,9 @@ from hypothesis import strategies as st
 from numpy.testing import assert_allclose
 from scipy.interpolate import BSpline
 
-from compare.check_certificate.families.b_spline.conditions import Limits, Rows, least_of, sums_of
+from compare.check_certificate.families.b_spline.conditions import Limits, Rows, Sums, least_of, sums_of
 from compare.check_certificate.families.b_spline.interpolation import collocation, interpolation
-from compare.check_certificate.families.b_spline.knots import Forms, basis, boxes_of
+from compare.check_certificate.families.b_spline.knots import Boxes, Forms, basis, boxes_of
 from compare.check_certificate.families.b_spline.taylor import (
     monomials,
     raised,
@@ -106,6 +106,29 @@ def test_the_true_sum_lies_above_its_bound(shape: Any, seed: int, width: float) 
             true -= Q(x[0, j]) if order == 0 else 0
             total += Q(multiplier) * (int(sign) * true - Q(level[order, j, (sign + 1) // 2]))
         assert total >= Q(bound)
+
+
+@settings(max_examples=100, deadline=None)
+@given(st.integers(1, 4), st.integers(0, 10**6), st.booleans())
+def test_no_polynomial_falls_below_its_bound(m: int, seed: int, convex: bool) -> None:
+    of, rng = monomials(m), np.random.default_rng(seed)
+    terms = rng.normal(size=(of.K, 1))
+    for part in (of.linear, of.square, of.cube):
+        terms[part] *= rng.choice([0.0, 0.1, 1.0, 3.0])
+    if convex:
+        terms[of.square][of.row] = np.abs(terms[of.square][of.row])
+    k = int(rng.integers(0, m + 1))
+    c, h = np.full((m + 2, 1), 5.0), np.full((m + 2, 1), 0.5)
+    sums = Sums(terms, np.array([0.01]), np.array([True]), Boxes(c, h))
+    slab = np.sort(rng.uniform(4.5, 5.5, 2))
+    bound = least_of(of, sums, np.array([0]), np.array([k]), slab[:1], slab[1:])[0]
+    e = rng.uniform(-1.0, 1.0, (3000, m))
+    e = np.where(rng.random(e.shape) < 0.3, np.sign(e), e)
+    if k:
+        e[:, k - 1] = 2.0 * (rng.uniform(*slab, 3000) - 5.0)
+    sets = (combinations_with_replacement(range(m), order) for order in range(4))
+    values = np.stack([np.prod(e[:, list(s)], axis=1) for some in sets for s in some], axis=1)
+    assert bound <= (values @ terms[:, 0]).min() - 0.01 + 1e-12
 
 
 def test_on_a_point_the_bound_is_the_sum() -> None:
