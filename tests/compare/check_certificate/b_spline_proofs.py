@@ -44,7 +44,8 @@ def problem(name: str) -> Problem:
 @cache
 def _certificate(name: str) -> dict[str, Any]:
     bound = family_bound(problem(name), gap=CASES[name][4], time_limit=60.0, record=True)
-    assert bound.certificate is not None and bound.certificate["events"]
+    assert bound.certificate is not None
+    assert bound.certificate["events"]
     return bound.certificate
 
 

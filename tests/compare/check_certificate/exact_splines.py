@@ -44,7 +44,7 @@ def control_points(t: list[Q], degree: int, x: list[Q]) -> list[Q]:
     rows = []
     for i in range(1, n):
         k = span_of(u, degree, t[i])
-        values = [function(u, l, degree, k, t[i]) for l in range(n + 5)]
+        values = [function(u, f, degree, k, t[i]) for f in range(n + 5)]
         ends = sum(values[:3]) * x[0] + sum(values[-3:]) * x[n]
         rows.append([*values[3 : n + 2], x[i] - ends])
     for p in range(n - 1):

@@ -15,7 +15,13 @@ from hypothesis import strategies as st
 from numpy.testing import assert_allclose
 from scipy.interpolate import BSpline
 
-from compare.check_certificate.families.b_spline.conditions import Limits, Rows, Sums, least_of, sums_of
+from compare.check_certificate.families.b_spline.conditions import (
+    SplineLimits,
+    SumRows,
+    Sums,
+    least_of,
+    sums_of,
+)
 from compare.check_certificate.families.b_spline.interpolation import collocation, interpolation
 from compare.check_certificate.families.b_spline.knots import Boxes, Forms, basis, boxes_of
 from compare.check_certificate.families.b_spline.taylor import (
@@ -44,9 +50,7 @@ def point_in(rng: np.random.Generator, lo: Any, hi: Any) -> list[Q]:
 def powers(boxes: Any, t: list[Q]) -> list[Q]:
     """The monomials at a point of the first box."""
     inner = range(1, len(t) - 1)
-    e = [
-        (t[i] - Q(boxes.c[i, 0])) / Q(boxes.h[i, 0]) if boxes.h[i, 0] > 0.0 else Q(0) for i in inner
-    ]
+    e = [(t[i] - Q(boxes.c[i, 0])) / Q(boxes.h[i, 0]) if boxes.h[i, 0] > 0.0 else Q(0) for i in inner]
     assert all(abs(x) <= 1 for x in e)
     sets = (combinations_with_replacement(range(len(e)), order) for order in range(4))
     return [prod((e[q] for q in s), start=Q(1)) for some in sets for s in some]
@@ -85,12 +89,12 @@ def test_the_true_sum_lies_above_its_bound(shape: Any, seed: int, width: float) 
     forms, (lo, hi) = Forms(n, degree), box(rng, n, width)
     x, level = rng.normal(size=(n + 1, 2)), rng.uniform(0.5, 2.0, (4, 2, 2))
     count = int(rng.integers(1, 4))
-    rows = Rows(
+    rows = SumRows(
         np.zeros(count, int), rng.integers(0, 2, count), rng.integers(0, forms.spans, count),
         rng.integers(0, 4, count), rng.choice([-1, 1], count), rng.integers(0, 9, count) / 8,
         rng.uniform(0.1, 2.0, count),
     )  # fmt: skip
-    sums = sums_of(forms, Limits(x, level), lo, hi, rows)
+    sums = sums_of(forms, SplineLimits(x, level), lo, hi, rows)
     k = int(rng.integers(0, n))
     slab = (0.3 * lo[k] + 0.7 * hi[k], hi[k]) if k else (lo[0], hi[0])
     bound = least_of(forms.of, sums, np.array([0]), np.array([k]), *slab)[0]
@@ -137,7 +141,9 @@ def test_on_a_point_the_bound_is_the_sum() -> None:
         forms, (lo, hi) = Forms(n, degree), box(rng, n, 1e-9)
         x, level = rng.normal(size=(n + 1, 1)), np.ones((4, 1, 2))
         one = [np.array([v]) for v in (0, 0, 1, 2, 1)]
-        sums = sums_of(forms, Limits(x, level), lo, hi, Rows(*one, np.array([0.5]), np.array([1.0])))
+        sums = sums_of(
+            forms, SplineLimits(x, level), lo, hi, SumRows(*one, np.array([0.5]), np.array([1.0]))
+        )
         zero = np.array([0])
         bound = least_of(forms.of, sums, zero, zero, lo[0], hi[0])[0]
         t = [Q(y) for y in lo[:, 0]]
@@ -161,7 +167,9 @@ def test_collocation_agrees_with_scipy() -> None:
 
 
 def test_a_waypoint_that_crosses_a_knot_has_a_model_for_both_spans() -> None:
-    forms = Forms(7, 5)  # waypoints 3 and 4 lie at the knots of their own numbers if all steps are equal
+    forms = Forms(
+        7, 5
+    )  # waypoints 3 and 4 lie at the knots of their own numbers if all steps are equal
     t = np.arange(8.0)[:, None]
     half = np.full((8, 1), 0.02)
     half[0] = half[-1] = 0.0
@@ -174,9 +182,9 @@ def test_a_waypoint_that_crosses_a_knot_has_a_model_for_both_spans() -> None:
         u, e = knots(at, 5), powers(boxes, at)
         for i in range(1, 7):
             k = max(j for j in range(5, len(u) - 6) if u[j] <= at[i])
-            for l in range(12):
-                true = function(u, l, 5, k, at[i]) if k - 5 <= l <= k else Q(0)
-                assert abs(value(rows[0, i - 1, l], e) - true) <= Q(rest[0, i - 1, l])
+            for f in range(12):
+                true = function(u, f, 5, k, at[i]) if k - 5 <= f <= k else Q(0)
+                assert abs(value(rows[0, i - 1, f], e) - true) <= Q(rest[0, i - 1, f])
 
 
 def test_the_inverse_of_the_collocation_is_bounded() -> None:
@@ -212,9 +220,9 @@ def test_products_of_models_hold_the_products(m: int, seed: int) -> None:
         at = [prod((e[q] for q in s), start=Q(1)) for some in sets for s in some]
         for i in range(2):
             true = sum(
-                (value(a[0, i, l], at) + Q(rng.choice([-1, 0, 1]) * rest[0, i, l]))
-                * (Q(constant[0, i, l]) + value(motion[0, l], at))
-                for l in range(3)
+                (value(a[0, i, f], at) + Q(rng.choice([-1, 0, 1]) * rest[0, i, f]))
+                * (Q(constant[0, i, f]) + value(motion[0, f], at))
+                for f in range(3)
             )
             assert abs(value(terms[0, i], at) - true) <= Q(error[0, i])
 

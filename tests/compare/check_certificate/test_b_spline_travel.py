@@ -19,7 +19,9 @@ def test_the_reach_is_the_integral_of_the_greatest_speed(
     v0, v1 = a * V, b * V
     t = (np.arange(4000) + 0.5) / 4000 * T
     greatest = np.minimum(V, np.minimum(v0 + A * t, v1 + A * (T - t)))
-    assert float(_reach(v0, v1, T, V, A)) == pytest.approx(greatest.mean() * T, abs=1e-5 * V * T + 1e-12)
+    assert float(_reach(v0, v1, T, V, A)) == pytest.approx(
+        greatest.mean() * T, abs=1e-5 * V * T + 1e-12
+    )
 
 
 def test_a_joint_at_rest_that_need_not_stop_is_not_slowed_down() -> None:
@@ -53,7 +55,9 @@ def test_no_motion_is_cut_off(seed: int, boundless: bool) -> None:
     v = v * np.minimum(1.0, 8.0 * np.minimum(s, 1.0 - s))
     v[0] = v[-1] = 0.0
     acceleration = np.abs(np.diff(v, axis=0) / dt[1:, None]).max(axis=0)
-    at = np.concatenate([np.zeros((1, joints)), np.cumsum(0.5 * (v[1:] + v[:-1]) * dt[1:, None], axis=0)])
+    at = np.concatenate(
+        [np.zeros((1, joints)), np.cumsum(0.5 * (v[1:] + v[:-1]) * dt[1:, None], axis=0)]
+    )
     ends = at[[0, *(per * k - 1 for k in range(1, n + 1))]]
     times = np.concatenate([[0.0], np.cumsum(dt[1:])])[[0, *(per * k - 1 for k in range(1, n + 1))]]
     d = np.diff(ends, axis=0)

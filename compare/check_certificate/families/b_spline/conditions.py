@@ -27,7 +27,7 @@ from compare.check_certificate.families.b_spline.taylor import (
 )
 
 
-class Limits(NamedTuple):
+class SplineLimits(NamedTuple):
     """What a B-spline must keep, of the moving joints: arrays of floats.
 
     x (n+1, joints): waypoints [rad]. level (4, joints, 2): the limit per order, joint, and sign -1 or
@@ -38,8 +38,8 @@ class Limits(NamedTuple):
     level: Any
 
 
-class Rows(NamedTuple):
-    """Rows of sums; arrays of one length, sorted by the sum that they belong to.
+class SumRows(NamedTuple):
+    """SumRows of sums; arrays of one length, sorted by the sum that they belong to.
 
     total, joint, span, order, sign: int. place, multiplier: float.
     """
@@ -63,18 +63,18 @@ class Sums(NamedTuple):
 
 
 @np.errstate(all="ignore")  # what overflows is not finite in the end and proves nothing
-def sums_of(forms: Forms, limits: Limits, lo: Any, hi: Any, rows: Rows) -> Sums:
+def sums_of(forms: Forms, limits: SplineLimits, lo: Any, hi: Any, rows: SumRows) -> Sums:
     """Model sums of limits, each over a box of its own.
 
     Parameters
     ----------
     forms : Forms
         Of the spline.
-    limits : Limits
+    limits : SplineLimits
         The task.
     lo, hi : ndarray, shape (n+1, sums) [s]
         The boxes.
-    rows : Rows
+    rows : SumRows
         The rows; every sum has some.
 
     Returns
@@ -91,7 +91,7 @@ def sums_of(forms: Forms, limits: Limits, lo: Any, hi: Any, rows: Rows) -> Sums:
     for order in range(4):
         of_order = np.flatnonzero(rows.order == order)
         for some in np.array_split(of_order, -(-len(of_order) // count)) if len(of_order) else ():
-            part = Rows(*(values[some] for values in rows))
+            part = SumRows(*(values[some] for values in rows))
             terms[some], rest[some], good = _limits_of_order(forms, limits, boxes, order, part, known)
             np.logical_and.at(fit, part.total, good)
     scaled = rows.multiplier[:, None] * terms
@@ -102,7 +102,7 @@ def sums_of(forms: Forms, limits: Limits, lo: Any, hi: Any, rows: Rows) -> Sums:
 
 
 def _limits_of_order(
-    forms: Forms, limits: Limits, boxes: Boxes, order: int, rows: Rows, known: Interpolation
+    forms: Forms, limits: SplineLimits, boxes: Boxes, order: int, rows: SumRows, known: Interpolation
 ) -> tuple[Any, Any, Any]:
     """Model limits on one derivative: terms (rows, K), rest (rows,), fit (rows,)."""
     n, of = forms.n, forms.of
@@ -131,7 +131,9 @@ def _limits_of_order(
     return terms, rest * GROW, fit
 
 
-def _beyond(of: Monomials, a: Any, a_rest: Any, rows: Rows, known: Interpolation, inner: slice) -> Any:
+def _beyond(
+    of: Monomials, a: Any, a_rest: Any, rows: SumRows, known: Interpolation, inner: slice
+) -> Any:
     """Bound |w sigma| + |A - w N| |N^-1| 1 max |sigma|; a (rows, n-1, K), inner functions alone."""
     m, count = of.m, len(a)
     N, N_rest = known.rows[rows.total][:, :, inner], known.rest[rows.total][:, :, inner]

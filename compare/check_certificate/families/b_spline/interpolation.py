@@ -151,13 +151,13 @@ def collocation(forms: Forms, lo: Any, hi: Any, boxes: Boxes) -> tuple[Any, Any,
     for i in range(n - 1):
         rows[:, i], rest[:, i] = at(np.arange(count), np.full(count, i), middle[i])
     for k in range(forms.spans):
-        i, box = np.nonzero((first <= k) & (k <= last) & (middle != k))
+        which, box = np.nonzero((first <= k) & (k <= last) & (middle != k))
         if len(box):
-            other, other_rest = at(box, i, np.full(len(box), k))
-            row = rows[box, i]
+            other, other_rest = at(box, which, np.full(len(box), k))
+            row = rows[box, which]
             far = size(other - row, axis=2) + other_rest
             far += ERR * (size(other, axis=2) + size(row, axis=2))
-            rest[box, i] = np.maximum(rest[box, i], far * GROW)
+            rest[box, which] = np.maximum(rest[box, which], far * GROW)
     return rows, rest, fit
 
 

@@ -61,7 +61,18 @@ class Boxes(NamedTuple):
     h: Any
 
     def take(self, index: Any) -> Boxes:
-        """Choose boxes, each as often as its number occurs in ``index``."""
+        """Choose boxes.
+
+        Parameters
+        ----------
+        index : ndarray of int
+            Their numbers.
+
+        Returns
+        -------
+        Boxes
+            Each as often as its number occurs.
+        """
         return Boxes(self.c[:, index], self.h[:, index])
 
 

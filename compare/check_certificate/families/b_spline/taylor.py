@@ -14,7 +14,7 @@ operations one after the other: the factor ``GROW`` covers their roundings, and 
 from __future__ import annotations
 
 from functools import lru_cache
-from itertools import combinations_with_replacement
+from itertools import combinations_with_replacement, pairwise
 from typing import Any
 
 import numpy as np
@@ -37,9 +37,7 @@ class Monomials:
         cubes = list(combinations_with_replacement(range(m), 3))
         ends = np.cumsum([1, m, len(squares), len(cubes)])
         self.m, self.K = m, int(ends[-1])
-        self.linear, self.square, self.cube = (
-            slice(int(a), int(b)) for a, b in zip(ends[:-1], ends[1:], strict=True)
-        )
+        self.linear, self.square, self.cube = (slice(int(a), int(b)) for a, b in pairwise(ends))
         place = {s: i for i, s in enumerate(squares)}
         self.row = [place[q, q] for q in range(m)]
         at = {c: i for i, c in enumerate(cubes)}
@@ -64,13 +62,35 @@ class Monomials:
                 self.share[i, q] += 1.0 / 3.0
 
     def squares_of(self, full: Any) -> Any:
-        """Add up products of slopes (.., m, m) as squares (.., squares)."""
+        """Add up products of slopes.
+
+        Parameters
+        ----------
+        full : ndarray, shape (.., m, m)
+            Products of e_q and e_r.
+
+        Returns
+        -------
+        ndarray, shape (.., squares)
+            Two products each at most.
+        """
         flat = full.reshape(*full.shape[:-2], -1)
         first, second, apart = self.pairs
         return flat[..., first] + apart * flat[..., second]
 
     def cubes_of(self, full: Any) -> Any:
-        """Add up products of slopes and squares (.., m, squares) as cubes (.., cubes)."""
+        """Add up products of slopes and squares.
+
+        Parameters
+        ----------
+        full : ndarray, shape (.., m, squares)
+            Products of e_q and a square.
+
+        Returns
+        -------
+        ndarray, shape (.., cubes)
+            Three products each at most.
+        """
         flat = full.reshape(*full.shape[:-2], -1)
         a, b, ab, c, bc = self.triples
         return flat[..., a] + ab * flat[..., b] + bc * flat[..., c]
@@ -152,9 +172,7 @@ def size(terms: Any, axis: int = 0) -> Any:
     return np.abs(terms).sum(axis=axis)
 
 
-def sum_of_products(
-    of: Monomials, a: Any, rest: Any, constant: Any, motion: Any
-) -> tuple[Any, Any]:
+def sum_of_products(of: Monomials, a: Any, rest: Any, constant: Any, motion: Any) -> tuple[Any, Any]:
     """Enclose sum_l a_l (constant_l + motion_l) for models a_l and polynomials motion_l.
 
     The terms of fourth order are added up over l before their sizes are taken.
@@ -190,9 +208,7 @@ def sum_of_products(
     low = np.matmul(parts[0], p[1]).reshape(batch, rows, m, k)
     high = np.matmul(parts[1], p[0]).reshape(batch, rows, k, m)
     terms[:, :, of.cube] += of.cubes_of(low + high.swapaxes(2, 3))
-    fourth = sum(
-        size(np.matmul(parts[i], p[2 - i]).reshape(batch, rows, -1), axis=2) for i in range(3)
-    )
+    fourth = sum(size(np.matmul(parts[i], p[2 - i]).reshape(batch, rows, -1), axis=2) for i in range(3))
     sizes = [size(a[..., s], axis=3) for s in (of.square, of.cube)]
     moves = [size(x, axis=2)[:, None, :] for x in p]
     whole = size(a, axis=3)

@@ -103,19 +103,19 @@ def _cut_segment(task: Travel, j: int, k: int, shortest: Any, longest: Any, velo
 
 def _reach(v0: Any, v1: Any, T: Any, V: float, A: float) -> Any:
     """G, rounded up."""
-    if A == np.inf:
+    if np.isinf(A):
         return V * T * _MORE
     s, apart = v0 + v1, np.abs(v0 - v1)
     full = V * T - ((V - v0) ** 2 + (V - v1) ** 2) / (2.0 * A)
     steep = (np.minimum(v0, v1) + 0.5 * A * T) * T
     between = (0.5 * s + 0.25 * A * T) * T - apart * apart / (4.0 * A)
-    G = np.where(2.0 * V - s <= A * T, full, np.where(A * T <= apart, steep, between))
+    G = np.where(2.0 * V - s <= A * T, full, np.where(apart >= A * T, steep, between))
     return G + 2.0**-47 * V * (T + 2.0**-50 * V / A)
 
 
 def _shortest(d: float, v0: Any, v1: Any, lo: Any, V: float, A: float) -> Any:
     """A duration that T exceeds, at least lo."""
-    if A == np.inf:
+    if np.isinf(A):
         T = np.full_like(lo, d / V)
     else:
         s, apart, slow = v0 + v1, np.abs(v0 - v1), np.minimum(v0, v1)
@@ -125,12 +125,12 @@ def _shortest(d: float, v0: Any, v1: Any, lo: Any, V: float, A: float) -> Any:
         full = (d + ((V - v0) ** 2 + (V - v1) ** 2) / (2.0 * A)) / V
         T = np.where(A * steep <= apart, steep, np.where(A * between <= 2.0 * V - s, between, full))
     T = T * (1.0 - 2.0**-44 * (1.0 + V * T / d))
-    return np.where((T > lo) & (_reach(v0, v1, T, V, A) < d), T, lo)
+    return np.where((lo < T) & (_reach(v0, v1, T, V, A) < d), T, lo)
 
 
 def _slowest(d: float, v: Any, other: Any, durations: tuple[Any, Any], V: float, A: float) -> Any:
     """A velocity that v0 exceeds if v1 <= other and T is between two durations; v0 >= v is known."""
-    if A == np.inf:  # velocities do not matter
+    if np.isinf(A):  # velocities do not matter
         return np.where(_reach(v, other, durations[1], V, A) < d, V, v)
     root = np.full_like(v, V)
     for T in durations:

@@ -16,13 +16,19 @@ import numpy as np
 from compare.check_certificate.answers import BadInput, Refused, need
 from compare.check_certificate.balls import R
 from compare.check_certificate.claim import MOST_SEGMENTS, Claim, index, items, real
-from compare.check_certificate.families.b_spline.conditions import Limits, Rows, least_of, sums_of
+from compare.check_certificate.families.b_spline.conditions import (
+    SplineLimits,
+    SumRows,
+    least_of,
+    sums_of,
+)
 from compare.check_certificate.families.b_spline.knots import Forms
 from compare.check_certificate.families.b_spline.taylor import MOST_VARIABLES
 from compare.check_certificate.families.b_spline.travel import Travel, cut
 
 _CUTS = 2_000  # boxes whose cuts are verified at once
 _FLOATS = 4_000_000  # in the models that are made at once
+_MOST_OPEN = 10_000  # boxes on the stack
 _LEAST, _MOST = 1e-40, 1e40  # sizes of numbers in SI units, beside 0
 _ROUNDS = 4  # of cuts by travel; the prover makes two
 
@@ -55,7 +61,7 @@ class BSplineTree:
         self.discards: list[tuple[str, int, int, float, float]] = []
         self.batch = max(_FLOATS // (self.forms.of.K * (claim.n + 5) * (claim.n + 5)), 1)
 
-    def _limits(self) -> Limits:
+    def _limits(self) -> SplineLimits:
         claim = self.claim
         level = np.full((4, len(claim.moving), 2), inf)
         for i, j in enumerate(claim.moving):
@@ -65,14 +71,14 @@ class BSplineTree:
                 for order in range(1, 4):
                     level[order, i, side] = _above(claim.limits[order - 1][j])
         x = np.array([[float(row[j]) for j in claim.moving] for row in claim.w])
-        return Limits(x, level)
+        return SplineLimits(x, level)
 
     def _moderate(self) -> bool:
         """Whether products of a few numbers of the problem stay far within the range of floats."""
         claim = self.claim
         numbers = [claim.L, *(x for row in claim.limits for x in row if x is not None)]
         numbers += [abs(x) for rows in (claim.w, claim.d) for row in rows for x in row if x != 0]
-        return all(bool(_LEAST < x) and bool(x < _MOST) for x in numbers)
+        return all(bool(x > _LEAST) and bool(x < _MOST) for x in numbers)
 
     def replay(self) -> int:
         """Verify every event; returns the number of discards."""
@@ -135,6 +141,7 @@ class BSplineTree:
                 need(closed or lo < value < hi, f"{where}: the split is outside the box")
                 if closed:
                     raise BadInput(f"{where}: a box that has ended is split")
+                need(len(stack) < _MOST_OPEN, f"{where}: more than {_MOST_OPEN} open boxes")
                 stack += [_with(box, k, lo, value), _with(box, k, value, hi)]
                 box = None
             else:
@@ -196,8 +203,8 @@ class BSplineTree:
             part = lo[:, open_], hi[:, open_]
             left = cut(self.travel, *part)
             lo[:, open_], hi[:, open_] = part
-            inside = (lo >= claimed[0]).all(axis=0) & (hi <= claimed[1]).all(axis=0)
-            open_ = open_[left & ~inside[open_]]
+            inside = (part[0] >= claimed[0][:, open_]) & (part[1] <= claimed[1][:, open_])
+            open_ = open_[left & ~inside.all(axis=0)]
             if not len(open_):
                 return
         raise Refused(f"{cuts[open_[0]][0]}: travel leaves more of the box than is stated")
@@ -210,8 +217,8 @@ class BSplineTree:
         lo, hi = (np.array([box[end] for box, _ in sums]).T for end in range(2))
         flat = [(i, *row) for i, (_, rows) in enumerate(sums) for row in rows]
         total, joint, span, order, sign, place, multiplier = zip(*flat, strict=True)
-        rows = Rows(
-            *(np.array(values, int) for values in (total, joint, span, order, sign)),
+        rows = SumRows(
+            np.array(total), np.array(joint), np.array(span), np.array(order), np.array(sign),
             np.array(place), np.array(multiplier),
         )  # fmt: skip
         where, which, k, first, last = zip(*discards, strict=True)
