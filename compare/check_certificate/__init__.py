@@ -2,9 +2,12 @@
 
 It shares no code with the prover. Every number is a ball of real numbers that contains the true one
 (python-flint's arb, 128 bits), and a comparison is true only if it is true for all of them. Intervals
-are pairs of such numbers. The claim: no durations make a spline of the family through the waypoints that
-keeps the limits (positions to within position_slack) and takes ``seconds`` or less. A stretch keeps the
-limits, so it is enough that no such spline takes exactly L = seconds.
+are pairs of such numbers. A proof about B-splines has a hundred thousand boxes: there the numbers are
+arrays of floats, and each file states how their rounding is bounded.
+
+The claim: no durations make a spline of the family through the waypoints that keeps the limits (positions to
+within position_slack) and takes ``seconds`` or less. A stretch keeps the limits, so it is enough that no such
+spline takes exactly L = seconds.
 
 The checker derives the domain of the search from the problem and L. It replays the events in depth-first
 order and verifies every discard: if multipliers >= 0 of necessary conditions g <= 0 make their weighted

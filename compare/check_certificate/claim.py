@@ -13,8 +13,8 @@ LONGEST_NAME = 100  # characters
 MOST_EVENTS, MOST_SEGMENTS, MOST_JOINTS = 3_000_000, 50, 50
 
 
-def number(text: Any) -> Any:
-    """Read a finite float from its hexadecimal text, exactly.
+def real(text: Any) -> float:
+    """Read a finite float from its hexadecimal text.
 
     Parameters
     ----------
@@ -23,8 +23,8 @@ def number(text: Any) -> Any:
 
     Returns
     -------
-    arb
-        The number.
+    float
+        Exact.
     """
     if not isinstance(text, str) or len(text) > 40:
         raise BadInput(f"expected a hexadecimal float, got {text!r:.40}")
@@ -34,7 +34,23 @@ def number(text: Any) -> Any:
         raise BadInput(f"not a hexadecimal float: {text!r:.40}") from None
     if not isfinite(value):
         raise BadInput(f"not finite: {text!r:.40}")
-    return R(value)
+    return value
+
+
+def number(text: Any) -> Any:
+    """Read a finite float from its hexadecimal text, as a ball.
+
+    Parameters
+    ----------
+    text : object
+        From the file.
+
+    Returns
+    -------
+    arb
+        The number, exact.
+    """
+    return R(real(text))
 
 
 def index(value: Any, below: int) -> int:
@@ -177,6 +193,28 @@ class Claim:
         far = most(sign * bound, *(sign * row[j] for row in self.w))
         return far - sign * self.w[k][j] + self.slack
 
+    def acceleration(self, j: int, total: Any = None) -> Any:
+        """Bound the acceleration of a joint, if it is zero at the start and at the end.
+
+        Parameters
+        ----------
+        j : int
+            The joint.
+        total : arb [s], optional
+            The time of the motion; by default the bound that is claimed.
+
+        Returns
+        -------
+        arb [rad/s^2], or None
+            Upper bound; None without limits on acceleration and jerk.
+        """
+        total = self.L if total is None else total
+        _, acceleration, jerk = (row[j] for row in self.limits)
+        if jerk is not None:
+            rising = jerk * total / 2
+            acceleration = rising if acceleration is None else least(acceleration, rising)
+        return acceleration
+
     def speed(self, j: int, total: Any = None) -> Any:
         """Bound the speed of a joint in a motion from rest to rest.
 
@@ -193,10 +231,7 @@ class Claim:
             Upper bound; None without any limit.
         """
         total = self.L if total is None else total
-        velocity, acceleration, jerk = (row[j] for row in self.limits)
-        if jerk is not None:
-            rising = jerk * total / 2
-            acceleration = rising if acceleration is None else least(acceleration, rising)
+        velocity, acceleration = self.limits[0][j], self.acceleration(j, total)
         if acceleration is not None:
             rising = acceleration * total / 2
             velocity = rising if velocity is None else least(velocity, rising)
@@ -218,13 +253,15 @@ class Claim:
         need(all(speed is not None for speed in speeds.values()), "a moving joint has no limit")
         return [most(*(abs(row[j]) / speeds[j] for j in self.moving)) for row in self.d]
 
-    def row(self, raw: Any) -> tuple[Any, ...]:
+    def row(self, raw: Any, pieces: int | None = None) -> tuple[Any, ...]:
         """Read a row.
 
         Parameters
         ----------
         raw : object
             From the file.
+        pieces : int, optional
+            Number of pieces of the spline; that of the segments by default.
 
         Returns
         -------
@@ -241,7 +278,7 @@ class Claim:
             return kind, multiplier, index(raw[1], self.n), index(raw[2], self.n + 1)
         if (kind, len(raw)) not in (("p", 7), ("j", 5)):
             raise BadInput(f"unknown row {raw!r:.60}")
-        j, k, sign = index(raw[1], self.dof), index(raw[2], self.n), raw[-2]
+        j, k, sign = index(raw[1], self.dof), index(raw[2], pieces or self.n), raw[-2]
         if type(sign) is not int or sign not in (-1, 1):
             raise BadInput(f"a sign is {sign!r:.40}")
         need(j in self.moving, f"a row is about joint {j + 1}, which does not move")

@@ -6,11 +6,11 @@ from typing import Any
 
 from compare.check_certificate.answers import BadInput
 from compare.check_certificate.claim import Claim
+from compare.check_certificate.families.b_spline.tree import BSplineTree
 from compare.check_certificate.families.four_three_four import FourThreeFour
 from compare.check_certificate.families.quintic import Quintic
 from compare.check_certificate.families.relaxation import Relaxation
 from compare.check_certificate.families.three_five_three import ThreeFiveThree
-from compare.check_certificate.families.velocity_acceleration import VelocityAccelerationSum
 from compare.check_certificate.words import proof_in_words
 
 
@@ -41,8 +41,8 @@ def verify(data: Any, *, show: bool = False) -> str:
         "3-5-3": ThreeFiveThree,
         "4-3-4": FourThreeFour,
         "quintic": Quintic,
-        "b-spline-3": VelocityAccelerationSum,
-        "b-spline-5": VelocityAccelerationSum,
+        "b-spline-3": BSplineTree,
+        "b-spline-5": BSplineTree,
         "every-motion": Relaxation,
     }
     if claim.family not in trees:

@@ -2,6 +2,6 @@
 
 three_five_three, four_three_four   a search tree (``tree``) of boxes
 quintic                             a chain of cells
-velocity_acceleration               one sum that holds for every motion, from velocities and accelerations
+b_spline                            a tree of boxes, verified many at once in floats that are rounded outward
 relaxation                          inequalities that hold for every motion, jerks included
 """

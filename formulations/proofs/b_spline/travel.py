@@ -1,12 +1,14 @@
 """What holds for every motion cuts a box of durations: how far a joint gets in a segment.
 
-Lemma. A motion of duration T with |acceleration| <= A, speed <= V and end velocities v0, v1 (positive in
-its direction, |v1 - v0| <= A T) covers at most
+Lemma. A motion of duration T with |acceleration| <= A, speed <= V and end velocities at most v0, v1 <= V
+(positive in its direction) covers at most R, the integral of min(V, v0 + A t, v1 + A (T - t)):
 
-    R = V T - ((V - v0)^2 + (V - v1)^2) / (2 A)                     if it can reach the speed V,
-    R = (v0 + v1) T / 2 + A T^2 / 4 - (v1 - v0)^2 / (4 A)           if 2 V - v0 - v1 > A T,
+    V T - ((V - v0)^2 + (V - v1)^2) / (2 A)                     if it can reach the speed V,
+    (v0 + v1) T / 2 + A T^2 / 4 - (v1 - v0)^2 / (4 A)           if 2 V - v0 - v1 > A T >= |v1 - v0|,
+    min(v0, v1) T + A T^2 / 2                                   if |v1 - v0| > A T: the faster end is out of
+                                                                reach of the slower one.
 
-the integral of min(V, v0 + A t, v1 + A (T - t)). R is convex in T with R <= 0 at T = 0, and it grows with
+R is convex in T (its slope grows from one case to the next) with R = 0 at T = 0, and it grows with
 v0 and v1. So if R < d at T = t, every T <= t is too short for the displacement d; and if R < d at both
 ends of an interval of T, then d is out of reach for all of it.
 """
@@ -49,6 +51,8 @@ def reach(v0: float, v1: float, T: float, V: float, A: float) -> float:
         lost = down(down(u0 * u0) + down(u1 * u1))
         return up(up(V * T) - down(lost / up(2.0 * A)))
     apart = max(down(abs(v1 - v0)), 0.0)
+    if apart > up(A * T):
+        return min(up(V * T), up(up(min(v0, v1) * T) + up(up(0.5 * A * T) * T)))
     lost = max(down(down(apart * apart) / up(4.0 * A)), 0.0)
     gained = up(up(0.5 * up(v0 + v1) * T) + up(up(0.25 * A * T) * T))
     return min(up(V * T), up(gained - lost))
