@@ -19,8 +19,8 @@ from hypothesis import strategies as st
 from formulations import CASES, Ladder, Limits, Problem, ladder, load
 from formulations.problem.arrays import Array
 
-# the shipped cases where their optima are needed: that of z1 takes a while
-SOLVED = [pytest.param(case, marks=[pytest.mark.slow] * (case == "z1")) for case in CASES]
+# the shipped cases where their optima and proofs are needed: those of z1 take minutes
+SOLVED = [pytest.param(case, marks=[pytest.mark.long] * (case == "z1")) for case in CASES]
 
 settings.register_profile(
     "timebound",

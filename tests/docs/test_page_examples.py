@@ -55,7 +55,7 @@ def is_said(line: str, said: str) -> bool:
     return False
 
 
-@pytest.mark.slow
+@pytest.mark.long
 @pytest.mark.parametrize("path", RUN, ids=lambda path: path.stem)
 def test_the_examples_of_a_page_run_in_their_order(path: Path, tmp_path: Path) -> None:
     if path.stem in ("could_it_be_that_fast", "certificates"):

@@ -21,7 +21,7 @@ def test_no_verified_swarm_result_lies_below_the_bound(case: str) -> None:
     problem, bound = load(case), unbeatable(case)
     for coding in CODINGS:
         for swarm, entry in ALGORITHMS.items():
-            # libraries: one point at a time, most of them; B-splines: far above their bound, and slow
+            # libraries: one point at a time, most of them; B-splines: slow
             budget = 200 if entry.libraries or problem.family.startswith("b-spline") else 1000
             row = graded(problem, bound, coding, swarm, 0, budget).row
             if row.seconds is not None:

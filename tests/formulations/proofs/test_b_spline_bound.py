@@ -230,7 +230,7 @@ def test_fewer_numbers_of_segments_down_to_one() -> None:
             holds(family_bound(problem, gap=1e-3, time_limit=20.0, optimum=anyhow(problem)), 1e-3)
 
 
-@pytest.mark.slow
+@pytest.mark.long
 @DEGREES
 def test_random_problems_are_proved(degree: int) -> None:
     rng = np.random.default_rng(degree)
@@ -287,7 +287,7 @@ def test_no_feasible_spline_is_lost_by_a_discard_or_a_cut(degree: int) -> None:
     assert noticed == mutants > 4  # with limits that are 2 % too low the test does fail
 
 
-@pytest.mark.slow
+@pytest.mark.long
 def test_no_spline_of_many_and_no_optimum_lies_below_the_bound() -> None:
     """TIMEBOUND_SOUNDNESS=N: N problems, 1e6 candidates and 50 starts each."""
     count = int(os.environ.get("TIMEBOUND_SOUNDNESS", "0"))
@@ -321,7 +321,7 @@ def test_no_spline_of_many_and_no_optimum_lies_below_the_bound() -> None:
     assert proved >= 3
 
 
-@pytest.mark.slow
+@pytest.mark.long
 def test_z1_is_proved() -> None:
     """The best spline known of z1 takes 15.487569 s."""
     problem = load("z1")
