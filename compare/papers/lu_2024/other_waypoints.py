@@ -25,7 +25,7 @@ from formulations.optima.family.optimum import local_optimum
 from formulations.problem.arrays import Array
 from metaheuristics import algorithm, minimise
 
-SETS = {False: 10, True: 30}
+SETS = {False: 6, True: 30}
 FAMILIES_COMPARED = ("b-spline-5", "quintic")
 OTHER_DEGREE = "b-spline-3"  # the other reading, asked where degree 5 has no motion
 _BUDGET = {False: 5000, True: 10_000}  # evaluations of a start
