@@ -275,10 +275,7 @@ def _longest_segment(climb: Climb) -> Outcome:
     kept = rule.stretch <= 1.0 + TOLERANCE
     broken = "keeps the limits" if kept else f"needs a stretch of {rule.stretch:.6g}"
     return Outcome.ok(
-        verdict.seconds,
-        durations=rule.durations,
-        trajectory=trajectory,
-        note=f"{claim}, {broken}",
+        verdict.seconds, durations=rule.durations, trajectory=trajectory, note=f"{claim}, {broken}"
     )
 
 

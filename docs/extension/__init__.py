@@ -1,7 +1,7 @@
 """What the site takes from the code: commands, keys of files, registries, references; and its formulas.
 
 commands     every command with its options, from the functions that the command line is made of
-keys         the keys of a problem file and of a paper's file, from the readers' own lists
+keys         the keys of a problem file, from its reader's own lists
 registries   families, bounds, algorithms, cases and references as tables
 mathml       formulas as MathML, made when the site is built
 links        links of the pages that are read on a code-hosting site too

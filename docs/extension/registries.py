@@ -4,13 +4,14 @@ from __future__ import annotations
 
 from collections.abc import Callable
 
+import numpy as np
 from docutils import nodes
 from sphinx.util.docutils import SphinxDirective
 
 from compare.citations.bibliography import entries
 from compare.citations.cited import CITED, CitedKind
 from formulations import CASES, FAMILIES, RUNGS, load
-from formulations.proofs.family import PROVERS
+from formulations.proofs.family import PROVERS, affordable_gap
 from metaheuristics import ALGORITHMS, GROUPS, NOT_REPRODUCIBLE
 
 Table = tuple[tuple[str, ...], list[tuple[str, ...]]]  # header and rows, in Markdown
@@ -56,11 +57,19 @@ def _families() -> Table:
             f"`{name}`",
             family.title,
             family.source,
-            "to a gap of 1e-7" if name in PROVERS else "that of every motion",
+            _proved(name),
         )
         for name, family in FAMILIES.items()
     ]
     return ("key", "what it is", "source", "bound that is proved"), rows
+
+
+def _proved(family: str) -> str:
+    """What is proved of a family where nothing else is asked for."""
+    if family not in PROVERS:
+        return "that of every motion"
+    gap = np.format_float_scientific(affordable_gap(family)[0], trim="-", exp_digits=1)
+    return f"to a gap of {gap}"
 
 
 def _bounds() -> Table:

@@ -180,7 +180,21 @@ def joint(
 
 @compiled
 def population(waypoints: Any, durations: Any, degree: int, lengths: Any, out: Any) -> None:
-    """Fill the splines of a whole population, one piece per knot span (see ``Family``)."""
+    """Fill the splines of a whole population, one piece per knot span (see ``Family``).
+
+    Parameters
+    ----------
+    waypoints : ndarray, shape (n+1, dof) [rad]
+        The waypoints.
+    durations : ndarray, shape (m, n) [s]
+        Of each candidate.
+    degree : int
+        3 or 5.
+    lengths : ndarray, shape (m, n_spans) [s]
+        Is filled: lengths of the knot spans.
+    out : ndarray, shape (m, n_spans, dof, 6)
+        Is filled: coefficients on normalised time, ascending.
+    """
     n = durations.shape[1]
     n_spans = n + 5 - degree
     gaps, between = np.zeros((n + 1, n + 1)), np.zeros((n_spans + 1, n_spans + 1))

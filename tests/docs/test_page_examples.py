@@ -11,7 +11,6 @@ from pathlib import Path
 import pytest
 
 from compare.__main__ import application
-from compare.audit import parse_papers
 from compare.commands import COMMANDS
 from formulations import parse
 
@@ -92,12 +91,6 @@ def test_the_problem_files_of_the_reference_are_problems() -> None:
     assert parse(first[1]).dof == 2
     pytest.importorskip("eaik")
     assert parse(second[1]).waypoints.shape == (2, 6)
-
-
-def test_the_paper_of_the_reference_is_one() -> None:
-    ((_, text),) = blocks(DOCS / "reference" / "paper_file.md", "toml")
-    (paper,) = parse_papers(text, "nobody")
-    assert [row.joint for row in paper.rows] == [0, 1]
 
 
 def test_the_comparison_of_lines_can_fail() -> None:

@@ -128,8 +128,8 @@ def test_every_entry_of_the_registries_is_in_its_table(site: Path) -> None:
 def test_every_key_of_the_files_is_explained(site: Path) -> None:
     words = set(shown(site, "reference/problem_file").split())
     assert {*PROBLEM_KEYS, *LIMIT_KEYS, *POSE_KEYS} <= words
-    words = set(shown(site, "reference/paper_file").split())
-    assert {"family", "waypoints.rows", "[[table]]", "claim.rule", "settings.swarm.alpha"} <= words
+    words = set(shown(site, "paper_file").split())
+    assert {"family", "rows", "[[table]]", "[[claim]]", "rule", "[settings.swarm]", "alpha"} <= words
 
 
 @pytest.mark.parametrize("package", [formulations, metaheuristics], ids=lambda p: p.__name__)

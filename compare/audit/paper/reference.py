@@ -26,6 +26,7 @@ it. Only `family` and `[waypoints]` are needed.
 - An unknown key is refused, with the nearest known one: a key that nobody reads would switch off a check in
   silence.
 - Joints and waypoints count from 1. Times are in seconds.
+- The files of the five shipped papers are `compare/papers/*/printed.toml`.
 
 ## Hints
 

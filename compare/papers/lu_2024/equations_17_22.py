@@ -69,5 +69,5 @@ EQUATIONS_17_22 = Item(
     "The paper prints no b, and of s only that it is greater than -1. Both are taken as 1: b as in "
     "Mirjalili and "
     "Lewis 2016, s because it is the plainest choice.",
-    cost=16.0,
+    cost=9.0,
 )

@@ -92,5 +92,5 @@ EQUATIONS_4_5 = Item(
     "searches for better ones. The length of a chord is that of all joints together [rad]. Waypoints of our "
     "own "
     "(case z1).",
-    cost=6.0,
+    cost=4.0,
 )

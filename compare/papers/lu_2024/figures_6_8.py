@@ -202,5 +202,5 @@ FIGURES_6_8 = Item(
     "Waypoints of our own. The paper does not say which velocities the quintic has at inner waypoints: zero "
     "where a joint turns, else the mean of both sides; the other reading is a full stop at each waypoint. The "
     "limits are in degrees, printed as radians.",
-    cost=35.0,
+    cost=18.0,
 )

@@ -25,12 +25,12 @@ from formulations.optima.family.optimum import local_optimum
 from formulations.problem.arrays import Array
 from metaheuristics import algorithm, minimise
 
-SETS = {False: 10, True: 30}
+SETS = {False: 6, True: 30}
 FAMILIES_COMPARED = ("b-spline-5", "quintic")
 OTHER_DEGREE = "b-spline-3"  # the other reading, asked where degree 5 has no motion
 _BUDGET = {False: 5000, True: 10_000}  # evaluations of a start
 _STARTS = {False: 1, True: 3}  # where the first one finds a feasible shape
-_ALL_STARTS = {False: 6, True: 20}  # where none does
+_ALL_STARTS = {False: 4, True: 20}  # where none does
 _WORST = 1e6  # s; above every time
 _SAME = 1e-3  # rad; ends of two starts that count as the same
 _NLP = 30.0  # s, of the nonlinear program where no start found a feasible shape

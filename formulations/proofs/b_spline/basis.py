@@ -131,7 +131,7 @@ def basis_row(forms: Any, k: int, order: int, point: Any, ref: Any, out: Any) ->
         The span, and the order of the derivative.
     point : ndarray, shape (n+1,)
         Where, a linear form.
-    ref : Reference
+    ref : SplineReference
         With the tables of the knots.
     out : ndarray, shape (degree+1, width)
         Is filled: functions k .. k + degree.
@@ -210,7 +210,7 @@ def collocation(forms: Any, lo: Any, hi: Any, ref: Any) -> bool:
         Of the spline.
     lo, hi : ndarray, shape (n+1,) [s]
         The box.
-    ref : Reference
+    ref : SplineReference
         Its ``rows`` (n-1, n+5, width), ``first`` and ``last`` (n-1,) are filled.
 
     Returns

@@ -151,7 +151,7 @@ def condition_model(row: Any, data: Any, ref: Any, out: Any) -> bool:
         The condition; it is not divided by its scale.
     data : SplineData
         The task.
-    ref : Reference
+    ref : SplineReference
         Over the box; the joint's polynomials are added if they are not known.
     out : ndarray, shape (width,)
         Is filled.

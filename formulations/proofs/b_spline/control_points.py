@@ -59,7 +59,7 @@ class SplineData(NamedTuple):
     acceleration: Any
 
 
-class Reference(NamedTuple):
+class SplineReference(NamedTuple):
     """The models over one box; see ``empty_reference`` for shapes.
 
     c, h: middle and half-widths of the waypoint times. between, inverse: distances of knots, and their
@@ -89,7 +89,7 @@ class Reference(NamedTuple):
 
 
 @compiled
-def empty_reference(n: int, degree: int, dof: int) -> Reference:
+def empty_reference(n: int, degree: int, dof: int) -> SplineReference:
     """Make room for the models over a box.
 
     Parameters
@@ -99,11 +99,11 @@ def empty_reference(n: int, degree: int, dof: int) -> Reference:
 
     Returns
     -------
-    Reference
+    SplineReference
         Zeros.
     """
     spans, width, inner = n + 5 - degree, width_of(n - 1), max(n - 1, 1)
-    return Reference(
+    return SplineReference(
         np.zeros(n + 1), np.zeros(n + 1),
         np.zeros((spans + 1, spans + 1, width)), np.zeros((spans + 1, spans + 1, width)),
         np.zeros((inner, n + 5, width)), np.zeros(inner, np.int64), np.zeros(inner, np.int64),
@@ -124,7 +124,7 @@ def place_reference(forms: Any, lo: Any, hi: Any, ref: Any) -> bool:
         Of the spline.
     lo, hi : ndarray, shape (n+1,) [s]
         The box of waypoint times.
-    ref : Reference
+    ref : SplineReference
         Is filled; no joint is known yet.
 
     Returns
@@ -201,7 +201,7 @@ def solve(j: int, x: Any, blur: Any, forms: Any, ref: Any) -> float:
         Data at the waypoints, and by how much each may differ from it, seen from the first.
     forms : SplineForms
         Of the spline.
-    ref : Reference
+    ref : SplineReference
         Its ``points``, ``motion`` and ``sigma`` of j are filled.
 
     Returns

@@ -46,8 +46,14 @@ def add_terms(n: int, k: float, a: Any, b: Any, out: Any) -> None:
 
     Parameters
     ----------
-    n, k, a, b, out
-        As in ``add_product``.
+    n : int
+        Number of variables.
+    k : float
+        A factor, exact.
+    a, b : ndarray, shape (width,)
+        Models.
+    out : ndarray, shape (width,)
+        The sum, to be closed.
     """
     a0, b0 = k * a[VALUE], k * b[VALUE]
     out[VALUE] += a0 * b[VALUE]
