@@ -11,6 +11,7 @@ from b_spline_proofs import CASES, answer, certificate, problem
 
 from compare.check_certificate.answers import Refused
 from compare.check_certificate.verify import verify
+from formulations import Limits, Problem, family_bound
 
 Spoil = Callable[[dict[str, Any]], None]
 
@@ -94,6 +95,17 @@ def test_honest_certificates_are_certified(name: str) -> None:
     orders = {row[3] for e in data["events"] if e[0] == "L" and len(e) == 2 for row in e[1]}
     assert orders <= {0, 1, 2, 3}
     assert ("P" in CASES[name][3]) <= (0 in orders)
+
+
+@pytest.mark.parametrize("degree", [3, 5])
+def test_one_segment_has_no_variables(degree: int) -> None:
+    one = Problem.of(np.array([[0.0], [1.0]]), Limits.of(1.0, 2.0, dof=1), family=f"b-spline-{degree}")
+    data = family_bound(one, gap=0.01, record=True).certificate
+    assert data is not None
+    assert [event[0] for event in data["events"]] == ["T", "L"]
+    assert answer(data) == "certified"
+    higher(1.02)(data)
+    assert answer(data) == "refused"
 
 
 def test_the_cases_show_every_order_and_every_event() -> None:

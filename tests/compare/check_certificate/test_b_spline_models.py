@@ -23,7 +23,7 @@ from compare.check_certificate.families.b_spline.conditions import (
     sums_of,
 )
 from compare.check_certificate.families.b_spline.interpolation import collocation, interpolation
-from compare.check_certificate.families.b_spline.knots import Boxes, Forms, basis, boxes_of
+from compare.check_certificate.families.b_spline.knots import Forms, TimeBoxes, basis, boxes_of
 from compare.check_certificate.families.b_spline.taylor import (
     monomials,
     raised,
@@ -123,7 +123,7 @@ def test_no_polynomial_falls_below_its_bound(m: int, seed: int, convex: bool) ->
         terms[of.square][of.row] = np.abs(terms[of.square][of.row])
     k = int(rng.integers(0, m + 1))
     c, h = np.full((m + 2, 1), 5.0), np.full((m + 2, 1), 0.5)
-    sums = Sums(terms, np.array([0.01]), np.array([True]), Boxes(c, h))
+    sums = Sums(terms, np.array([0.01]), np.array([True]), TimeBoxes(c, h))
     slab = np.sort(rng.uniform(4.5, 5.5, 2))
     bound = least_of(of, sums, np.array([0]), np.array([k]), slab[:1], slab[1:])[0]
     e = rng.uniform(-1.0, 1.0, (3000, m))

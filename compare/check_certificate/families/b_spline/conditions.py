@@ -16,7 +16,7 @@ from typing import Any, NamedTuple
 import numpy as np
 
 from compare.check_certificate.families.b_spline.interpolation import Interpolation, interpolation
-from compare.check_certificate.families.b_spline.knots import Boxes, Forms, basis, boxes_of
+from compare.check_certificate.families.b_spline.knots import Forms, TimeBoxes, basis, boxes_of
 from compare.check_certificate.families.b_spline.taylor import (
     ERR,
     GROW,
@@ -59,7 +59,7 @@ class Sums(NamedTuple):
     terms: Any
     rest: Any
     fit: Any
-    boxes: Boxes
+    boxes: TimeBoxes
 
 
 @np.errstate(all="ignore")  # what overflows is not finite in the end and proves nothing
@@ -102,7 +102,12 @@ def sums_of(forms: Forms, limits: SplineLimits, lo: Any, hi: Any, rows: SumRows)
 
 
 def _limits_of_order(
-    forms: Forms, limits: SplineLimits, boxes: Boxes, order: int, rows: SumRows, known: Interpolation
+    forms: Forms,
+    limits: SplineLimits,
+    boxes: TimeBoxes,
+    order: int,
+    rows: SumRows,
+    known: Interpolation,
 ) -> tuple[Any, Any, Any]:
     """Model limits on one derivative: terms (rows, K), rest (rows,), fit (rows,)."""
     n, of = forms.n, forms.of
@@ -135,15 +140,15 @@ def _beyond(
     of: Monomials, a: Any, a_rest: Any, rows: SumRows, known: Interpolation, inner: slice
 ) -> Any:
     """Bound |w sigma| + |A - w N| |N^-1| 1 max |sigma|; a (rows, n-1, K), inner functions alone."""
-    m, count = of.m, len(a)
+    m, count, lower = of.m, len(a), of.square.stop
     N, N_rest = known.rows[rows.total][:, :, inner], known.rest[rows.total][:, :, inner]
     Y, sigma = known.Y[rows.total], known.sigma[rows.total, rows.joint]
     w = np.matmul(a[:, None, :, 0], Y)  # (rows, 1, n-1)
-    wN = np.matmul(w, N.reshape(count, len(N[0]), -1)).reshape(count, -1, of.K)
+    wN = np.matmul(w, N.reshape(count, m, m * of.K)).reshape(count, m, of.K)
     bend = np.matmul((a - wN)[..., of.linear].swapaxes(1, 2), Y)  # (rows, m, n-1): slopes of w
     left = a - wN
-    turned = np.matmul(bend, N[..., : of.square.stop].reshape(count, len(N[0]), -1))
-    turned = turned.reshape(count, m, -1, of.square.stop).swapaxes(1, 2)  # (rows, l, m, terms)
+    turned = np.matmul(bend, N[..., :lower].reshape(count, m, m * lower))
+    turned = turned.reshape(count, m, m, lower).swapaxes(1, 2)  # (rows, l, m, terms)
     left[..., of.linear] -= turned[..., 0]
     left[..., of.square] -= of.squares_of(turned[..., of.linear])
     left[..., of.cube] -= of.cubes_of(turned[..., of.square])

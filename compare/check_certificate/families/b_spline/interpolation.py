@@ -20,7 +20,7 @@ from typing import Any, NamedTuple
 
 import numpy as np
 
-from compare.check_certificate.families.b_spline.knots import Boxes, Forms, basis
+from compare.check_certificate.families.b_spline.knots import Forms, TimeBoxes, basis
 from compare.check_certificate.families.b_spline.taylor import (
     ERR,
     GROW,
@@ -51,7 +51,9 @@ class Interpolation(NamedTuple):
     sigma: Any
 
 
-def interpolation(forms: Forms, lo: Any, hi: Any, boxes: Boxes, x: Any, wanted: Any) -> Interpolation:
+def interpolation(
+    forms: Forms, lo: Any, hi: Any, boxes: TimeBoxes, x: Any, wanted: Any
+) -> Interpolation:
     """Solve for the control points of some joints over many boxes.
 
     Parameters
@@ -60,7 +62,7 @@ def interpolation(forms: Forms, lo: Any, hi: Any, boxes: Boxes, x: Any, wanted: 
         Of the spline.
     lo, hi : ndarray, shape (n+1, boxes) [s]
         The boxes.
-    boxes : Boxes
+    boxes : TimeBoxes
         The same.
     x : ndarray, shape (n+1, joints) [rad]
         Waypoints.
@@ -109,7 +111,7 @@ def _about_inverse(matrices: Any) -> Any:
         return np.concatenate([_about_inverse(one[None]) for one in matrices])
 
 
-def collocation(forms: Forms, lo: Any, hi: Any, boxes: Boxes) -> tuple[Any, Any, Any]:
+def collocation(forms: Forms, lo: Any, hi: Any, boxes: TimeBoxes) -> tuple[Any, Any, Any]:
     """Model the basis functions at the inner waypoints.
 
     Where a waypoint may lie in several spans, the model of the polynomial in one of them is widened to
@@ -161,7 +163,7 @@ def collocation(forms: Forms, lo: Any, hi: Any, boxes: Boxes) -> tuple[Any, Any,
     return rows, rest, fit
 
 
-def _spans(forms: Forms, lo: Any, hi: Any, boxes: Boxes) -> tuple[Any, Any, Any]:
+def _spans(forms: Forms, lo: Any, hi: Any, boxes: TimeBoxes) -> tuple[Any, Any, Any]:
     """First and last span that each inner waypoint may lie in, and the one in the middle of the box."""
     n = forms.n
     slack = 1e-12 * forms.degree * hi[n]  # for rounding
@@ -192,8 +194,10 @@ def _solve(forms: Forms, rows: Any, rest: Any, Y: Any, x: Any) -> tuple[Any, Any
     away = x[None, 1:n, None] - points[:, None, :]
     missed = np.matmul(away[:, :, None, :], rows)[:, :, 0, :]
     inward = rows[:, :, inner].swapaxes(2, 3)  # (boxes, n-1, K, n-1)
-    flat = [inward[:, :, s].reshape(count, -1, n - 1) for s in (of.linear, of.square)]
     m, k = of.m, of.square.stop - of.square.start
+    flat = [
+        inward[:, :, s].reshape(count, m * width, m) for s, width in ((of.linear, m), (of.square, k))
+    ]
     p1 = motion[:, inner, of.linear] = np.matmul(Y, missed[..., of.linear])
     bent = of.squares_of(np.matmul(flat[0], p1).reshape(count, n - 1, m, m))
     p2 = motion[:, inner, of.square] = np.matmul(Y, missed[..., of.square] - bent)

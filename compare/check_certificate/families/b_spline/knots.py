@@ -54,13 +54,13 @@ class Forms:
                 self.knots[k, min(max(i, 0), n)] += 1.0
 
 
-class Boxes(NamedTuple):
-    """Boxes of waypoint times: c, h (n+1, boxes), middles and half-widths [s]; h is 0 at both ends."""
+class TimeBoxes(NamedTuple):
+    """TimeBoxes of waypoint times: c, h (n+1, boxes), middles and half-widths [s]; h is 0 at both ends."""
 
     c: Any
     h: Any
 
-    def take(self, index: Any) -> Boxes:
+    def take(self, index: Any) -> TimeBoxes:
         """Choose boxes.
 
         Parameters
@@ -70,13 +70,13 @@ class Boxes(NamedTuple):
 
         Returns
         -------
-        Boxes
+        TimeBoxes
             Each as often as its number occurs.
         """
-        return Boxes(self.c[:, index], self.h[:, index])
+        return TimeBoxes(self.c[:, index], self.h[:, index])
 
 
-def boxes_of(lo: Any, hi: Any) -> Boxes:
+def boxes_of(lo: Any, hi: Any) -> TimeBoxes:
     """Find middles and half-widths, the latter rounded up.
 
     Parameters
@@ -86,16 +86,16 @@ def boxes_of(lo: Any, hi: Any) -> Boxes:
 
     Returns
     -------
-    Boxes
+    TimeBoxes
         That hold the given ones.
     """
     c = np.where(lo < hi, 0.5 * (lo + hi), lo)
     h = np.where(lo < hi, np.maximum(hi - c, c - lo) * (1.0 + 2.0**-50), 0.0)
-    return Boxes(c, h)
+    return TimeBoxes(c, h)
 
 
 def basis(
-    forms: Forms, boxes: Boxes, k: Any, order: int, point: tuple[Any, Any]
+    forms: Forms, boxes: TimeBoxes, k: Any, order: int, point: tuple[Any, Any]
 ) -> tuple[Any, Any, Any]:
     """Model derivatives of the basis functions that are not zero on a span.
 
@@ -103,7 +103,7 @@ def basis(
     ----------
     forms : Forms
         Of the spline.
-    boxes : Boxes
+    boxes : TimeBoxes
         One per element.
     k : ndarray of int, shape (elements,)
         Spans.

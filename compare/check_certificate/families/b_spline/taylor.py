@@ -74,7 +74,7 @@ class Monomials:
         ndarray, shape (.., squares)
             Two products each at most.
         """
-        flat = full.reshape(*full.shape[:-2], -1)
+        flat = full.reshape(*full.shape[:-2], full.shape[-2] * full.shape[-1])
         first, second, apart = self.pairs
         return flat[..., first] + apart * flat[..., second]
 
@@ -91,7 +91,7 @@ class Monomials:
         ndarray, shape (.., cubes)
             Three products each at most.
         """
-        flat = full.reshape(*full.shape[:-2], -1)
+        flat = full.reshape(*full.shape[:-2], full.shape[-2] * full.shape[-1])
         a, b, ab, c, bc = self.triples
         return flat[..., a] + ab * flat[..., b] + bc * flat[..., c]
 
@@ -201,14 +201,16 @@ def sum_of_products(of: Monomials, a: Any, rest: Any, constant: Any, motion: Any
     terms = np.matmul(constant[:, :, None, :], a)[:, :, 0, :]
     terms += np.matmul(a[..., 0], motion)
     across = np.ascontiguousarray(a.swapaxes(2, 3))  # (batch, rows, K, l)
-    parts = [across[:, :, s].reshape(batch, -1, count) for s in (of.linear, of.square, of.cube)]
-    p = [np.ascontiguousarray(motion[:, :, s]) for s in (of.linear, of.square, of.cube)]
+    orders = of.linear, of.square, of.cube
+    parts = [across[:, :, s].reshape(batch, rows * (s.stop - s.start), count) for s in orders]
+    p = [np.ascontiguousarray(motion[:, :, s]) for s in orders]
     terms[:, :, of.square] += of.squares_of(np.matmul(parts[0], p[0]).reshape(batch, rows, m, m))
     k = p[1].shape[2]
     low = np.matmul(parts[0], p[1]).reshape(batch, rows, m, k)
     high = np.matmul(parts[1], p[0]).reshape(batch, rows, k, m)
     terms[:, :, of.cube] += of.cubes_of(low + high.swapaxes(2, 3))
-    fourth = sum(size(np.matmul(parts[i], p[2 - i]).reshape(batch, rows, -1), axis=2) for i in range(3))
+    products = (np.abs(np.matmul(parts[i], p[2 - i])).sum(axis=2) for i in range(3))
+    fourth = sum(x.reshape(batch, rows, x.shape[1] // max(rows, 1)).sum(axis=2) for x in products)
     sizes = [size(a[..., s], axis=3) for s in (of.square, of.cube)]
     moves = [size(x, axis=2)[:, None, :] for x in p]
     whole = size(a, axis=3)

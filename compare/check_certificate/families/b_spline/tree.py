@@ -28,6 +28,7 @@ from compare.check_certificate.families.b_spline.travel import Travel, cut
 
 _CUTS = 2_000  # boxes whose cuts are verified at once
 _FLOATS = 4_000_000  # in the models that are made at once
+_SLACK = 2.0**-40  # of L, by which the box after a turn is widened
 _MOST_OPEN = 10_000  # boxes on the stack
 _LEAST, _MOST = 1e-40, 1e40  # sizes of numbers in SI units, beside 0
 _ROUNDS = 4  # of cuts by travel; the prover makes two
@@ -36,12 +37,12 @@ Ends = tuple[list[float], list[float]]
 
 
 class BSplineTree:
-    """Boxes of the times of the inner waypoints; t_0 = 0 and t_n = L."""
+    """TimeBoxes of the times of the inner waypoints; t_0 = 0 and t_n = L."""
 
     def __init__(self, claim: Claim) -> None:
         self.claim = claim
         self.forms = Forms(claim.n, int(claim.family[-1]))
-        self.L = float(claim.L)
+        self.L, self.slack = float(claim.L), float(claim.L) * _SLACK
         shortest = claim.shortest()
         self.void = sum(shortest, R(0)) > claim.L
         self.root = (
@@ -164,9 +165,10 @@ class BSplineTree:
         if empty:
             self.cuts.append((where, box, None))
             return box
+        # a root that was found to the last digit is beyond this checker's rounding: go on with a wider box
         left = (
-            [0.0, *map(max, lo, box[0][1:-1]), self.L],
-            [0.0, *map(min, hi, box[1][1:-1]), self.L],
+            [0.0, *(max(x - self.slack, y) for x, y in zip(lo, box[0][1:-1], strict=True)), self.L],
+            [0.0, *(min(x + self.slack, y) for x, y in zip(hi, box[1][1:-1], strict=True)), self.L],
         )
         need(all(a <= b for a, b in zip(*left, strict=True)), f"{where}: a turn leaves no box")
         self.cuts.append((where, box, left))
