@@ -265,7 +265,7 @@ def test_with_velocity_alone_the_displacement_is_the_infimum_and_ruckig_has_no_m
         assert "acceleration" in found.rungs[key].note
 
 
-@pytest.mark.parametrize("case", ["sr4c", "ur5", pytest.param("z1", marks=pytest.mark.slow)])
+@pytest.mark.parametrize("case", ["sr4c", "ur5", pytest.param("z1", marks=pytest.mark.long)])
 def test_the_fastest_motion_and_its_bound_meet(case: str) -> None:
     found = climbed(case)
     lower, upper = found.seconds("free_form_lower"), found.seconds("free_form")

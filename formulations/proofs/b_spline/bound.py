@@ -28,6 +28,8 @@ from formulations.proofs.domain import LESS, MORE, data_of, duration_domain
 from formulations.proofs.events import Effort, EventTrace
 from formulations.proofs.proof import NARROW, ProofSearch, Prover
 
+_SHORT = 1e-10  # of L: the least duration of a motion that is tried
+
 
 def prover_of(degree: int) -> Prover:
     """Make the prover of one degree.
@@ -83,6 +85,7 @@ def _search(
         return branch_and_bound(stack, depth, data, Effort(max_boxes, narrow, aside), trace)
 
     def durations(depth: int) -> Array:
-        return np.diff(0.5 * (stack[depth - 1, 0] + stack[depth - 1, 1]))
+        # where nothing moves, waypoints may coincide
+        return np.maximum(np.diff(0.5 * (stack[depth - 1, 0] + stack[depth - 1, 1])), _SHORT * L)
 
     return ProofSearch(n + 1, MOST_ROWS, 0 if domain.empty else 1, advance, durations, turns_cut=True)

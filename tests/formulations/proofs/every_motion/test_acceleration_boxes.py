@@ -148,7 +148,7 @@ def test_the_checker_refuses_a_proof_with_boxes_too_narrow(monkeypatch: pytest.M
     true = propagation._upper_sides
     monkeypatch.setattr(propagation, "_upper_sides", lambda d, J, T: true(d, 0.3 * J, T))
     wrong = free_form_bound(problem, gap=1e-3, upper=honest.upper, time_limit=10.0, record=True)
-    assert wrong.seconds > honest.seconds * (1.0 + 1e-3)
+    assert wrong.seconds > honest.upper  # a bound above a verified motion
     with pytest.raises(Refused):
         verify(wrong.certificate)
 
