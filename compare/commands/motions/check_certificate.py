@@ -29,7 +29,7 @@ def check_certificate(
     show_sums: Annotated[bool, Parameter(name="--show")] = False,
     json: Json = None,
 ) -> int:
-    """Prove a certified bound again, in ball arithmetic and independently of the prover.
+    """Prove a certified bound again, in arithmetic of its own and independently of the prover.
 
     Exit code 0: certified, 1: refused, 2: bad input.
 
