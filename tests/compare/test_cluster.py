@@ -18,7 +18,7 @@ from compare.engines import cluster as module
 from formulations import InputError, load
 
 distributed = pytest.importorskip("distributed")
-pytestmark = pytest.mark.slow
+pytestmark = pytest.mark.long
 
 
 @pytest.fixture(scope="module")

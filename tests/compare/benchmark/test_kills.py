@@ -101,7 +101,7 @@ def holds(folder: Path, unbroken: list[dict[str, Any]]) -> int:
     return len(rows)
 
 
-@pytest.mark.slow
+@pytest.mark.long
 @pytest.mark.skipif(sys.platform == "win32", reason="kills a group of processes")
 @pytest.mark.parametrize("engine", ["1", "2", "cluster"])
 def test_killed_at_random_moments_and_resumed(
