@@ -21,8 +21,8 @@
                ["w", start, end, multiplier]                           the least time of a part
                ["t", multiplier] total   ["f", multiplier] first   ["l", multiplier] last
 
-Joints and segments count from 0. ``compare.check_certificate`` replays it in ball arithmetic, that of a B-spline
-in arrays rounded outward.
+Joints and segments count from 0. ``compare.check_certificate`` replays it in ball arithmetic, that of
+a B-spline in arrays rounded outward.
 """
 
 from __future__ import annotations
