@@ -85,7 +85,7 @@ def swaps(paper: Paper) -> Iterator[Change]:
         told = f"{p.where} and {q.where} swapped"
         yield Change("swap", told, replace(paper, points=tuple(changed)))
     for a, b in _pairs(range(3 if paper.points else 0)):
-        order = [b if k == a else a if k == b else k for k in range(3)]
+        order = _swapped(3, a, b)
         points = tuple(replace(p, position=tuple(p.position[k] for k in order)) for p in paper.points)
         told = f"{_AXES[a]} and {_AXES[b]} of the points swapped"
         yield Change("swap", told, replace(paper, points=points), whole=True)

@@ -120,7 +120,7 @@ def _model_conditions(
         if not condition_model(posed.rows[kept], data, ref, model):
             continue
         size = posed.rows[kept, SCALE]
-        y = least_separable(m, model, posed.least, posed.own)
+        least_separable(m, model, posed.least, posed.own)  # fills in the curvatures
         # to first order and with a share of the curvature, as a sum of conditions may cancel it
         y = model[VALUE] - model[REST] - model[CUBE]
         for q in range(m):
