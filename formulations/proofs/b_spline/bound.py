@@ -78,7 +78,8 @@ def _search(
     stack = np.zeros((STACK, 2, n + 1))
     before = np.concatenate([[0.0], np.cumsum(domain.shortest)])
     stack[0, 0, 1:n] = before[1:n] * LESS
-    stack[0, 1, 1:n] = (L - (before[n] - before[1:n])) * MORE
+    # a difference: its rounding is relative to L
+    stack[0, 1, 1:n] = (L - (before[n] - before[1:n])) * MORE + 1e-14 * L
     stack[0, :, n] = L
 
     def advance(depth: int, max_boxes: int, trace: EventTrace) -> tuple[int, bool]:
