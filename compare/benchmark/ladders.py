@@ -19,12 +19,20 @@ class RungRecord(TypedDict):
     note: str
 
 
+class PiecesRecord(TypedDict):
+    """A motion as exact pieces: durations [s], coefficients (piece, joint, power), passage times [s]."""
+
+    durations: list[float]
+    coefficients: list[list[list[float]]]
+    passages: list[float]
+
+
 class LadderRecord(TypedDict):
     """Every bound of one case.
 
     ``ladder``: rungs by key. ``durations``: by key, those of the motions that have some [s].
     ``alone``: optimum of each joint alone [s], None where a joint does not move. ``held_up_by``: what
-    holds the fastest motion up, a sentence each.
+    holds the fastest motion up, a sentence each. ``fastest``: the fastest motion known.
     """
 
     problem: str
@@ -35,6 +43,7 @@ class LadderRecord(TypedDict):
     title: NotRequired[str]
     family: NotRequired[str]
     held_up_by: NotRequired[list[str]]
+    fastest: NotRequired[PiecesRecord]
 
 
 def ladder_record(ladder: Ladder) -> LadderRecord:
@@ -53,4 +62,11 @@ def ladder_record(ladder: Ladder) -> LadderRecord:
     found["title"], found["family"] = ladder.problem.title, ladder.problem.family
     if ladder.free_form is not None:
         found["held_up_by"] = diagnose(ladder.problem, ladder.free_form).lines()
+    motion = ladder.trajectories.get("free_form")
+    if motion is not None:
+        found["fastest"] = {
+            "durations": motion.durations.tolist(),
+            "coefficients": motion.coefficients.tolist(),
+            "passages": motion.passage_times.tolist(),
+        }
     return found

@@ -15,7 +15,8 @@ from compare.grading.grading import Grading
 from compare.grading.reasons import telling
 from compare.grading.standing import TARGET
 from compare.grading.words import p_text, seeds_sentence
-from compare.report.page import environment, percent
+from compare.report.frame import TABLES, environment
+from compare.report.words import percent
 from compare.screen import table
 
 
@@ -55,6 +56,7 @@ def write_page(found: Grading, folder: Path, name: str) -> Path:
         rule=(contest.__doc__ or "").partition("The rule.")[2].strip().split("\n\n"),
         target=percent(TARGET),
         row=row,
+        scripts=TABLES,
     )
     page = folder / f"{name}.html"
     write_text(page, text)

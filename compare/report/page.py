@@ -2,16 +2,14 @@
 
 from __future__ import annotations
 
-import base64
 import json
 from collections.abc import Iterable
 from dataclasses import dataclass
 from pathlib import Path
 from typing import Any, TypedDict
 
-import jinja2
-
 from compare.audit import chapter
+from compare.audit.paper import load_papers
 from compare.benchmark.known_times import key_of_paper
 from compare.benchmark.ladders import LadderRecord
 from compare.benchmark.objective import CODINGS
@@ -19,18 +17,16 @@ from compare.benchmark.protocol import Coordinates, Track
 from compare.benchmark.records.rejudge import judged_again
 from compare.benchmark.records.rows import Row, RowStatus
 from compare.benchmark.records.store import Settings, Store
-from compare.benchmark.summaries import (
-    Summary,
-    as_papers_run,
-    best_claim,
-    best_row,
-    bound_of,
-    summaries,
-)
+from compare.benchmark.summaries import summaries
 from compare.engines import Engine, each
 from compare.files import write_text
 from compare.plain_data import read_json
+from compare.report.answers import answers, headline
+from compare.report.charts.case import charts_of_case
 from compare.report.figures.case import draw_case
+from compare.report.frame import CHARTS, environment
+from compare.report.glossary import GLOSSARY
+from compare.report.overview import cells, columns, proof_words, to_best_known
 from compare.report.papers_at_a_glance import papers_at_a_glance
 from compare.studies.study import STUDIES
 from formulations import RUNGS, Problem
@@ -43,6 +39,7 @@ FIGURES = {
     "split": "Where the time goes, from the certified bound on every motion up to the motion of a swarm.",
     "convergence": "Gap against evaluations.",
 }
+"""Pictures of each case, as files beside the page and in report.md."""
 
 TRACKS: dict[Track, str] = {
     Track.equal: "",
@@ -51,9 +48,9 @@ TRACKS: dict[Track, str] = {
 }
 
 LIMITATIONS = [
-    "Where the first table says proved, gaps are measured against a certified lower bound of the "
-    "family; where it says not proved, against the best of many local solves of the exact NLP. Bounds of "
-    "B-splines are proved to a gap of 0.1 %, those of the other families to 1e-7.",
+    "Gaps are measured against the best motion of the family that is known: of many local solves of the exact "
+    "NLP and of all runs. How far it can lie above the optimum stands beside it: bounds of B-splines are "
+    "proved to 0.1 %, those of the other families to 1e-7.",
     "The papers print no search box (but Lu 2024) and no way to treat velocities at its walls: the box, "
     "the clamp and every other reading are stated in compare/benchmark/objective.py and metaheuristics.",
     "The limits of bagging and cobot are assumed, as their files say: those papers print none.",
@@ -87,57 +84,39 @@ def render(pool: Engine, folder: Path, problems: dict[str, Problem], settings: S
     """
     store = Store(folder)
     ladders = store.ladders()
-    rows = judged_again(store.rows(), problems, ladders)
-    calls = []
+    rows, best = to_best_known(judged_again(store.rows(), problems, ladders), ladders)
+    charts, calls = {}, []
     for case, problem in problems.items():
         mine = [row for row in rows if row.case == case]
         held = {r.key for r in mine if r.status is not RowStatus.contradicted}
         kept = {key: found for key, found in store.traces(case) if key in held}
+        charts[case] = charts_of_case(problem, ladders[case], mine, kept)
         calls.append((folder, case, problem, ladders[case], mine, kept))
     for _ in each(pool, "figures", draw_case, calls):
         pass
-    context = _context(rows, ladders, problems, settings)
+    context = _context(rows, ladders, problems, settings) | {"best": best, "charts": charts}
     context["studies"] = {
         name: study for name, study in STUDIES.items() if (folder / "figures" / f"{name}.svg").exists()
     }
     context |= papers_context(store, folder, context["cases"])
+    context["answers"] = answers(context["summaries"], rows, ladders, context["papers"])
+    context["proofs"] = {case: proof_words(ladders[case], best[case]) for case in context["cases"]}
     bias = folder / "bias.json"
     context["bias"] = read_json(bias, _Bias, "a study")["summary"] if bias.exists() else {}
     context["figures"] = {
         case: {name: (f"figures/{case}-{name}", caption) for name, caption in FIGURES.items()}
         for case in problems
     }
+    context["files"] = _files
     pages = environment(folder)
     for name in ("report.md", "index.html"):
         write_text(folder / name, pages.get_template(f"{name}.j2").render(context))
     return folder / "index.html"
 
 
-def environment(folder: Path) -> jinja2.Environment:
-    """Return the templates of every page, with their filters.
-
-    Parameters
-    ----------
-    folder : Path
-        Folder of the report; ``inline(NAME)`` puts DIR/NAME.svg into a page.
-
-    Returns
-    -------
-    jinja2.Environment
-    """
-    made = jinja2.Environment(
-        loader=jinja2.PackageLoader("compare.report"),
-        autoescape=jinja2.select_autoescape(["html.j2"]),
-        trim_blocks=True,
-        lstrip_blocks=True,
-        undefined=jinja2.StrictUndefined,
-    )
-    made.filters["percent"] = percent
-    made.filters["number"] = lambda gap: percent(gap).removesuffix(" %")
-    made.filters["seconds"] = lambda seconds: "–" if seconds is None else f"{seconds:.4f}"
-    made.globals["inline"] = lambda name: _inline(folder / f"{name}.svg")
-    made.globals["shade"] = _shade
-    return made
+def _files(case: str, figure: str) -> list[tuple[str, str]]:
+    """Links to a figure drawn for papers."""
+    return [(ending.upper(), f"figures/{case}-{figure}.{ending}") for ending in ("svg", "png")]
 
 
 def papers_context(store: Store, folder: Path, cases: list[str]) -> dict[str, Any]:
@@ -154,40 +133,25 @@ def papers_context(store: Store, folder: Path, cases: list[str]) -> dict[str, An
     Returns
     -------
     dict
-        For the templates: ``papers``, ``pages``, ``chapters``, ``known_times``, ``arms``.
+        For the templates: ``papers``, ``pages``, ``authors``, ``chapters``, ``known_times``, ``arms``.
     """
     audits, known = store.audits(), store.known_times()
     written = {case: f"papers/{key_of_paper(case)}.html" for case in cases}
     entries = chapter(data for stored in audits.values() for data in stored["audits"])
     glance = papers_at_a_glance(audits, known, store.ladders())
+    pages = {case: page for case, page in written.items() if (folder / page).exists()}
     return {
         "papers": [paper for paper in glance if paper.case in cases],
-        "pages": {case: page for case, page in written.items() if (folder / page).exists()},
+        "pages": pages,
+        "authors": {case: load_papers(Path(page).stem)[0].author_year for case, page in pages.items()},
         "chapters": {entry["name"]: [entry] for entry in entries},
         "known_times": known,
-        "arms": {c: f"figures/{c}-arm" for c in cases if (folder / f"figures/{c}-arm.svg").exists()},
+        "arms": {
+            c: [("as a moving SVG", f"figures/{c}-arm.svg")]
+            for c in cases
+            if (folder / f"figures/{c}-arm.svg").exists()
+        },
     }
-
-
-def percent(gap: float | None) -> str:
-    """Return a gap for people: 8.2 %, 0.013 %, 3e-06 %; a gap that is rounding is 0 %.
-
-    Parameters
-    ----------
-    gap : float or None
-
-    Returns
-    -------
-    str
-    """
-    if gap is None:
-        return "none"
-    value = 100.0 * gap
-    if abs(value) < 1e-8:
-        return "0 %"
-    if abs(value) < 1e-3:
-        return f"{value:.0e} %".replace("e-0", "e-")
-    return f"{value:.2g} %" if abs(value) < 10 else f"{value:.0f} %"
 
 
 def _context(
@@ -205,6 +169,8 @@ def _context(
         "cases": cases,
         "problems": problems,
         "codings": {row.variant: _rules(row) for row in rows},
+        "columns": columns(rows, cases),
+        "cells": cells(found, rows),
         "swarms": swarms,
         "groups": {
             title: members
@@ -215,8 +181,7 @@ def _context(
         "summaries": found,
         "ladders": ladders,
         "meanings": {key: rung.meaning for key, rung in RUNGS.items()},
-        "bounds": {case: bound_of(ladders[case]) for case in cases},
-        "headlines": [_headline(case, ladders[case], rows, found) for case in cases],
+        "headlines": {case: headline(case, ladders[case], rows) for case in cases},
         "rows": len(rows),
         "faults": faults_of(rows),
         "contradicted": contradicted,
@@ -224,6 +189,8 @@ def _context(
         "machine": rows[0].machine if rows else "",
         "versions": rows[0].versions if rows else "",
         "limitations": LIMITATIONS,
+        "glossary": GLOSSARY,
+        "scripts": CHARTS,
     }
 
 
@@ -293,26 +260,6 @@ def _parameters(row: Row) -> dict[str, Any]:
     return found if isinstance(found, dict) else {}
 
 
-def _headline(
-    case: str,
-    ladder: LadderRecord,
-    rows: list[Row],
-    found: dict[tuple[str, str, str], Summary],
-) -> dict[str, Any]:
-    """One line per case: the optimum, the papers' best claim and what is left of it."""
-    mine = [row for row in rows if row.case == case]
-    run = {row.variant for row in as_papers_run(mine)}
-    published = [s for (c, variant, _), s in found.items() if c == case and variant in run]
-    return {
-        "case": case,
-        "optimum": ladder["ladder"]["family"]["seconds"],
-        "claim": best_claim(mine),
-        "stretched": best_row(mine, variant="stretched"),
-        "breaking": sum(s.breaking for s in published),
-        "published": sum(s.seeds for s in published),
-    }
-
-
 def faults_of(rows: Iterable[Row]) -> list[tuple[str, int, str]]:
     """Count every status but ok.
 
@@ -330,17 +277,3 @@ def faults_of(rows: Iterable[Row]) -> list[tuple[str, int, str]]:
         if row.status is not RowStatus.ok:
             found.setdefault(row.status, []).append(row)
     return [(status, len(group), group[0].note) for status, group in sorted(found.items())]
-
-
-def _shade(gap: float | None) -> str:
-    """CSS class of a gap; five steps that differ in lightness too."""
-    if gap is None:
-        return "none"
-    for name, most in (("g0", 1e-6), ("g1", 1e-4), ("g2", 1e-2), ("g3", 5e-2)):
-        if gap <= most:
-            return name
-    return "g4"
-
-
-def _inline(path: Path) -> str:
-    return "data:image/svg+xml;base64," + base64.b64encode(path.read_bytes()).decode()

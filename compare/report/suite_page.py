@@ -14,7 +14,9 @@ from compare.benchmark.suite.features import Features
 from compare.benchmark.suite.instance import Instance, Split
 from compare.benchmark.summaries import Summary, median, summaries
 from compare.files import write_text
-from compare.report.page import environment, faults_of, swarms_in
+from compare.report.frame import TABLES, environment
+from compare.report.overview import shade
+from compare.report.page import faults_of, swarms_in
 from metaheuristics import GROUPS
 
 LEVELS = (1e-2, 1e-4, 1e-6)  # gaps whose share of instances is shown
@@ -118,6 +120,8 @@ def render_suite(store: Store, instances: Sequence[Instance], settings: Settings
         },
         "instances": [_line(one, ladders[one.name], described[one.name]) for one in instances],
         "rows": len(rows),
+        "shade": shade,
+        "scripts": TABLES,
         "faults": faults_of(rows),
         "machine": rows[0].machine if rows else "",
         "versions": rows[0].versions if rows else "",

@@ -146,6 +146,11 @@ class Paper:
     left_out: tuple[LeftOut, ...] = ()
 
     @property
+    def author_year(self) -> str:
+        """How people name it: Wang 2025, what its title begins with."""
+        return self.title.partition(":")[0]
+
+    @property
     def angle(self) -> float:
         """Rad per unit of angle shown to people."""
         return UNITS[self.unit]

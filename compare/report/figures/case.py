@@ -19,7 +19,7 @@ from compare.report.figures import convergence_figure, gap_figure, ladder_figure
 from compare.report.motion_picture import fastest_spline
 from compare.report.style import STYLE
 from compare.statistics.medians import lower_median
-from compare.studies.time_split import split, split_figure
+from compare.studies.time_split import Share, split, split_figure
 from formulations import Problem
 
 
@@ -90,11 +90,34 @@ def where_the_time_goes(problem: Problem, ladder: LadderRecord, rows: Sequence[R
     ladder : LadderRecord
         Its bounds.
     rows : sequence of Row
-        Its rows; PSO is shown if it ran, else the swarm of the first row.
+        Its rows.
 
     Returns
     -------
     Figure
+    """
+    swarm, splits = splits_of(problem, ladder, rows)
+    return split_figure(f"{problem.name}: where the time of {swarm} goes (median seed)", splits)
+
+
+def splits_of(
+    problem: Problem, ladder: LadderRecord, rows: Sequence[Row]
+) -> tuple[str, dict[str, list[Share]]]:
+    """Split the median time of one swarm into its shares, in each variant of a coding.
+
+    Parameters
+    ----------
+    problem : Problem
+    ladder : LadderRecord
+        Its bounds.
+    rows : sequence of Row
+        Its rows; PSO is taken if it ran, else the swarm of the first row.
+
+    Returns
+    -------
+    swarm : str
+    splits : dict of str to list of Share
+        By variant; without those that have no verified motion.
     """
     swarm = rows[0].swarm if all(row.swarm != "pso" for row in rows) else "pso"
     splits = {}
@@ -104,4 +127,4 @@ def where_the_time_goes(problem: Problem, ladder: LadderRecord, rows: Sequence[R
         if times and ladder["ladder"]["free_form"]["seconds"]:
             seconds = float(lower_median(times))
             splits[variant] = split(problem, ladder["ladder"], seconds, mine[0].coding)
-    return split_figure(f"{problem.name}: where the time of {swarm} goes (median seed)", splits)
+    return swarm, splits

@@ -1,0 +1,142 @@
+"""Motions of one problem beside each other: exact pieces, limits per joint, and the arm as it moves."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import dataclass
+from typing import TYPE_CHECKING, Any
+
+import numpy as np
+
+from compare.report.motion_picture import skeleton
+from formulations import Problem, Trajectory
+from formulations.motion.verdict import QUANTITIES
+from formulations.problem.joint_words import factors, shown_unit
+
+if TYPE_CHECKING:
+    from formulations.arms import Arm
+    from formulations.robot import Robot
+
+_DIGITS = 9  # of a coefficient: far below what a screen resolves
+_FRAMES = 60  # of the moving arm; straight lines between them
+
+
+@dataclass(frozen=True)
+class ShownMotion:
+    """A motion as the page shows it.
+
+    Attributes
+    ----------
+    kind : str
+        What decides its colour: ``published``, ``family``, ``fastest`` or ``given``.
+    title : str
+        What it is, with its time and whether it keeps its limits.
+    trajectory : Trajectory
+    """
+
+    kind: str
+    title: str
+    trajectory: Trajectory
+
+
+def motions_chart(problem: Problem, motions: Sequence[ShownMotion]) -> dict[str, Any]:
+    """Return the pieces of each motion in the problem's own units, and the limits.
+
+    Parameters
+    ----------
+    problem : Problem
+    motions : sequence of ShownMotion
+        Of all its joints.
+
+    Returns
+    -------
+    dict
+        ``joints``: name, ``units`` and ``limits`` of position to jerk (None where there is none), and
+        waypoints; ``motions``: title, kind, passage times and, by piece, durations [s] and ascending
+        coefficients by joint.
+    """
+    scales = 1.0 / factors(problem.units, problem.display_unit)
+    joints = []
+    for j in range(problem.dof):
+        low, high = problem.position_bounds[j]
+        bounds = [(low, high), *((-limit, limit) for limit in problem.limits.derivatives[:, j])]
+        joints.append(
+            {
+                "name": problem.joint_name(j),
+                "moves": j in problem.moving_joints,
+                "units": [shown_unit(problem.units[j], problem.display_unit, k) for k in range(4)],
+                "limits": [[_finite(limit * scales[j]) for limit in pair] for pair in bounds],
+                "waypoints": [_short(x * scales[j]) for x in problem.waypoints[:, j]],
+            }
+        )
+    return {
+        "quantities": list(QUANTITIES),
+        "joints": joints,
+        "motions": [
+            {
+                "kind": motion.kind,
+                "title": motion.title,
+                "passages": [_short(t) for t in motion.trajectory.passage_times],
+                "durations": [_short(t) for t in motion.trajectory.durations],
+                "pieces": [
+                    [[_short(c * scales[j]) for c in joint] for j, joint in enumerate(piece)]
+                    for piece in motion.trajectory.coefficients
+                ],
+            }
+            for motion in motions
+        ],
+        "alt": "; ".join(motion.title for motion in motions) + ".",
+    }
+
+
+def arm_chart(arm: Arm | Robot, motions: Sequence[ShownMotion]) -> dict[str, Any]:
+    """Return the arm as a chain of points along each motion.
+
+    Parameters
+    ----------
+    arm : Arm or Robot
+    motions : sequence of ShownMotion
+
+    Returns
+    -------
+    dict
+        ``motions``: title, kind, seconds, ``times`` [s], ``frames`` (frame, point, xyz) [m]; ``stops``: the
+        tool at each waypoint [m].
+    """
+    shown = []
+    for motion in motions:
+        times = np.linspace(0.0, motion.trajectory.seconds, _FRAMES + 1)
+        points = skeleton(arm, motion.trajectory.at(times))
+        keep = _distinct(points)
+        shown.append(
+            {
+                "kind": motion.kind,
+                "title": motion.title,
+                "seconds": motion.trajectory.seconds,
+                "frames": np.round(points[:, keep], 3).tolist(),
+            }
+        )
+    first = motions[0].trajectory
+    tool = skeleton(arm, first.at(first.passage_times))[:, -1]
+    title = getattr(arm, "title", arm.name)
+    return {
+        "motions": shown,
+        "stops": np.round(tool, 3).tolist(),
+        "alt": f"{title} as a stick figure that can be turned and played: "
+        + "; ".join(motion.title for motion in motions)
+        + ".",
+    }
+
+
+def _distinct(points: np.ndarray[Any, Any]) -> np.ndarray[Any, Any]:
+    """Which points (frame, point, xyz) differ from the one before them in any frame."""
+    steps = np.abs(np.diff(points, axis=1)).max(axis=(0, 2))
+    return np.concatenate([[True], steps > 1e-6])
+
+
+def _short(value: float) -> float:
+    return float(f"{value:.{_DIGITS}g}")
+
+
+def _finite(value: float) -> float | None:
+    return float(f"{value:.6g}") if np.isfinite(value) else None
