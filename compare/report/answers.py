@@ -72,7 +72,8 @@ def _reaching(found: Mapping[tuple[str, str, str], Summary]) -> Answer | None:
     if others:
         detail += f" In the others: {others}."
     detail += f" Reached: the median gap of the seeds is at most {percent(AT_OPTIMUM)}."
-    text = f"{len(reach[variant])} of {len(swarms)} swarms reach the optimum {where}"
+    count = len(reach[variant])
+    text = f"{count or 'None'} of {len(swarms)} swarms reach{'es' if count < 2 else ''} the optimum {where}"
     return Answer(text, detail, "overview")
 
 

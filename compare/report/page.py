@@ -22,6 +22,7 @@ from compare.engines import Engine, each
 from compare.files import write_text
 from compare.plain_data import read_json
 from compare.report.answers import answers, headline
+from compare.report.charts.arms import arms_chart
 from compare.report.charts.case import charts_of_case
 from compare.report.figures.case import draw_case
 from compare.report.frame import CHARTS, environment
@@ -100,6 +101,7 @@ def render(pool: Engine, folder: Path, problems: dict[str, Problem], settings: S
     }
     context |= papers_context(store, folder, context["cases"])
     context["answers"] = answers(context["summaries"], rows, ladders, context["papers"])
+    charts["all"] = {"arms": arms_chart(context["cases"], ladders, rows, context["papers"], best)}
     context["proofs"] = {case: proof_words(ladders[case], best[case]) for case in context["cases"]}
     bias = folder / "bias.json"
     context["bias"] = read_json(bias, _Bias, "a study")["summary"] if bias.exists() else {}

@@ -6,12 +6,12 @@ from collections.abc import Sequence
 
 import numpy as np
 
-from compare.audit.motion.printed_motion import PrintedMotion
+from compare.audit.motion.printed_motion import Kept, PrintedMotion
 from compare.benchmark.known_times import paper_of_case
 from compare.benchmark.ladders import LadderRecord, PiecesRecord
 from compare.benchmark.records.rows import Row, durations_of
 from compare.benchmark.summaries import best_claim
-from compare.report.charts.motions import ShownMotion
+from compare.report.charts.motions import SLACK, ShownMotion
 from formulations import FAMILIES, Problem, Trajectory, check
 
 
@@ -36,8 +36,7 @@ def motions_of_case(
     found = []
     claimed = published_motion(problem) or _claim(problem, rows)
     if claimed is not None:
-        name, motion = claimed
-        found.append(ShownMotion("published", f"{name}, {_judged(problem, motion)}", motion))
+        found.append(claimed)
     durations = ladder["durations"].get("family")
     if durations is not None:
         motion = FAMILIES[problem.family].trajectory(problem, np.array(durations))
@@ -50,7 +49,7 @@ def motions_of_case(
     return found
 
 
-def published_motion(problem: Problem) -> tuple[str, Trajectory] | None:
+def published_motion(problem: Problem) -> ShownMotion | None:
     """Return the shortest motion of the whole arm that the paper of a case prints.
 
     Parameters
@@ -60,8 +59,8 @@ def published_motion(problem: Problem) -> tuple[str, Trajectory] | None:
 
     Returns
     -------
-    tuple of str and Trajectory, or None
-        What it is; None where no paper belongs to the problem or it prints no durations.
+    ShownMotion or None
+        None where no paper belongs to the problem or it prints no durations.
     """
     paper = paper_of_case(problem.name)
     wholes = [] if paper is None else [row for row in paper.rows if row.joint is None]
@@ -69,7 +68,11 @@ def published_motion(problem: Problem) -> tuple[str, Trajectory] | None:
         return None
     printed = min((PrintedMotion.of(paper, row) for row in wholes), key=lambda one: one.total)
     motion = FAMILIES[problem.family].trajectory(problem, printed.times)
-    return f"published ({printed.row.by})", motion
+    words, slack = _judged(problem, motion), SLACK
+    if printed.kept in (Kept.YES, Kept.WITHIN_ROUNDING):
+        words = f"{motion.seconds:.4f} s, keeps its limits within the rounding of what is printed"
+        slack = max(SLACK, printed.verdict.stretch**3 - 1.0)
+    return ShownMotion("published", f"published ({printed.row.by}), {words}", motion, slack)
 
 
 def from_pieces(pieces: PiecesRecord) -> Trajectory:
@@ -88,13 +91,15 @@ def from_pieces(pieces: PiecesRecord) -> Trajectory:
     )
 
 
-def _claim(problem: Problem, rows: Sequence[Row]) -> tuple[str, Trajectory] | None:
+def _claim(problem: Problem, rows: Sequence[Row]) -> ShownMotion | None:
     """The shortest claim in the papers' coding: the verified motion, faster by one factor."""
     row = best_claim(rows)
     if row is None or row.claimed is None or row.seconds is None:
         return None
     durations = durations_of(row) * (row.claimed / row.seconds)
-    return f"best claim ({row.swarm})", FAMILIES[problem.family].trajectory(problem, durations)
+    motion = FAMILIES[problem.family].trajectory(problem, durations)
+    title = f"best claim in the papers' coding ({row.swarm}), {_judged(problem, motion)}"
+    return ShownMotion("published", title, motion)
 
 
 def _judged(problem: Problem, motion: Trajectory) -> str:

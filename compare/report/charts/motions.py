@@ -17,6 +17,8 @@ if TYPE_CHECKING:
     from formulations.arms import Arm
     from formulations.robot import Robot
 
+SLACK = 1e-6
+"""Share of a limit that is rounding."""
 _DIGITS = 9  # of a coefficient: far below what a screen resolves
 _FRAMES = 60  # of the moving arm; straight lines between them
 
@@ -32,11 +34,14 @@ class ShownMotion:
     title : str
         What it is, with its time and whether it keeps its limits.
     trajectory : Trajectory
+    slack : float
+        Share of a limit by which it may be exceeded before the picture marks it.
     """
 
     kind: str
     title: str
     trajectory: Trajectory
+    slack: float = SLACK
 
 
 def motions_chart(problem: Problem, motions: Sequence[ShownMotion]) -> dict[str, Any]:
@@ -76,6 +81,7 @@ def motions_chart(problem: Problem, motions: Sequence[ShownMotion]) -> dict[str,
             {
                 "kind": motion.kind,
                 "title": motion.title,
+                "slack": motion.slack,
                 "passages": [_short(t) for t in motion.trajectory.passage_times],
                 "durations": [_short(t) for t in motion.trajectory.durations],
                 "pieces": [

@@ -25,7 +25,8 @@ def split_chart(problem: Problem, ladder: LadderRecord, rows: Sequence[Row]) -> 
     Returns
     -------
     dict
-        ``bars``: name and the seconds of each share, the proved bound first; ``meanings`` of the shares.
+        ``bars``: name, and where each share begins and ends [s], the proved bound first; ``meanings`` of the
+        shares.
     """
     if not rows:
         return {"bars": [], "meanings": {}, "alt": "No run."}
@@ -33,7 +34,10 @@ def split_chart(problem: Problem, ladder: LadderRecord, rows: Sequence[Row]) -> 
     bars = [
         {
             "name": f"{swarm}, {variant}",
-            "shares": {"bound": shares[0].low, **{share.name: share.seconds for share in shares}},
+            "shares": {
+                "bound": [0.0, shares[0].low],
+                **{share.name: [share.low, share.high] for share in shares},
+            },
         }
         for variant, shares in splits.items()
     ]

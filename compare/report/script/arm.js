@@ -25,8 +25,8 @@ charts.arm = (figure, found) => {
   const canvas = figure.querySelector(".canvas");
   const camera = canvas.layout?.scene?.camera ?? {eye: {x: 1.25, y: -1.45, z: 0.7}};
   plot(figure, traces, layout({
-    height: narrow(figure) ? 420 : 520, showlegend: true, margin: {l: 0, r: 0, t: 0, b: 0},
-    legend: {x: 0, y: 1, bgcolor: colour("card")},
+    height: narrow(figure) ? 480 : 600, showlegend: true, margin: {l: 0, r: 0, t: 0, b: 0},
+    legend: {x: 0, y: 1.02, yanchor: "bottom"},
     scene: {aspectmode: "data", camera, xaxis: {...axis, title: {text: "x [m]"}},
             yaxis: {...axis, title: {text: "y [m]"}}, zaxis: {...axis, title: {text: "z [m]"}}},
   }));

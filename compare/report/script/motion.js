@@ -55,7 +55,7 @@ charts.motion = (figure, found) => {
       traces.push({type: "scatter", mode: "lines", x: t, y: x, yaxis: axis, name: title, legendgroup: motion.kind,
                    showlegend: order === 0, line: {color: colour(tint), dash, width: 2},
                    hovertemplate: `${quantity} %{y:.4g} ${units[order]} at %{x:.4f} s<extra></extra>`});
-      const slack = 1e-6 * Math.max(Math.abs(low ?? 0), Math.abs(high ?? 0));
+      const slack = motion.slack * Math.max(Math.abs(low ?? 0), Math.abs(high ?? 0));
       const over = x.map((value) => ((high !== null && value > high + slack) || (low !== null && value < low - slack) ? value : null));
       if (over.some((value) => value !== null)) {
         traces.push({type: "scatter", mode: "lines", x: t, y: over, yaxis: axis, legendgroup: motion.kind,

@@ -6,18 +6,28 @@ const SHARES = {bound: "green", proof: "soft", path: "blue", timing: "sky", fami
 
 charts.split = (figure, found) => {
   const small = narrow(figure);
-  const traces = Object.keys(SHARES).map((share) => {
+  const traces = Object.entries(SHARES).map(([share, tint]) => {
     const mine = found.bars.filter((bar) => share in bar.shares);
-    return {type: "bar", orientation: "h", name: found.meanings[share] ? fold(`${share}: ${found.meanings[share]}`, small ? 40 : 100) : share,
-            y: mine.map((bar) => text(bar.name)), x: mine.map((bar) => bar.shares[share]),
-            text: mine.map((bar) => bar.shares[share].toPrecision(3)), textposition: "inside", insidetextanchor: "middle",
-            insidetextfont: {color: colour("paper")}, constraintext: "inside",
-            hovertemplate: `${share}: %{x:.6f} s<extra></extra>`, marker: {color: colour(SHARES[share]), line: {color: colour("paper"), width: 1}}};
+    const words = found.meanings[share] ? `${share}: ${found.meanings[share]}` : share;
+    return {type: "scatter", mode: "lines", name: fold(words, small ? 40 : 100), connectgaps: false,
+            x: mine.flatMap((bar) => [...bar.shares[share], null]), y: mine.flatMap((bar) => [text(bar.name), text(bar.name), null]),
+            hovertemplate: mine.flatMap((bar) => {
+              const [low, high] = bar.shares[share];
+              const said = `${share}: ${(high - low).toFixed(6)} s, from ${low.toFixed(4)} to ${high.toFixed(4)} s<extra></extra>`;
+              return [said, said, ""];
+            }),
+            line: {color: colour(tint), width: 24}};
   }).filter((trace) => trace.x.length);
+  const notes = found.bars.map((bar) => {
+    const ends = Object.values(bar.shares), whole = ends.at(-1)[1], bound = ends[0][1];
+    return {x: whole, y: text(bar.name), xanchor: "left", xshift: 6, showarrow: false,
+            text: `${whole.toFixed(3)} s, ${(100 * (whole / bound - 1)).toPrecision(3)} % above`, font: {size: 12}};
+  });
+  const longest = Math.max(...found.bars.map((bar) => Object.values(bar.shares).at(-1)[1]));
   plot(figure, traces, layout({
-    barmode: "stack", height: 170 + 50 * found.bars.length, showlegend: true,
-    margin: {l: 10, r: 10, t: 10, b: 40},
-    xaxis: {title: {text: "time [s]"}}, yaxis: {autorange: "reversed"},
+    height: 200 + 44 * found.bars.length, showlegend: true, annotations: notes,
+    xaxis: {title: {text: "time [s]"}, range: [0, longest * (small ? 1.7 : 1.3)]},
+    yaxis: {type: "category", range: [found.bars.length - 0.5, -0.5], showgrid: false},
     legend: {x: 0, y: 1.02, yanchor: "bottom"},
   }));
 };
