@@ -72,9 +72,32 @@ def _reaching(found: Mapping[tuple[str, str, str], Summary]) -> Answer | None:
     if others:
         detail += f" In the others: {others}."
     detail += f" Reached: the median gap of the seeds is at most {percent(AT_OPTIMUM)}."
+    if nearest := _nearest(found, cases):
+        detail += f" Nearest on its worst arm: {nearest}."
     count = len(reach[variant])
     text = f"{count or 'None'} of {len(swarms)} swarms reach{'es' if count < 2 else ''} the optimum {where}"
     return Answer(text, detail, "overview")
+
+
+def _nearest(found: Mapping[tuple[str, str, str], Summary], cases: set[str]) -> str:
+    """The swarm and variant whose largest median gap over the cases is least; empty if none ran on all."""
+    worst = {
+        (variant, swarm): max(gaps)
+        for _, variant, swarm in found
+        if len(gaps := _gaps(found, cases, variant, swarm)) == len(cases)
+    }
+    if not worst:
+        return ""
+    variant, swarm = min(worst, key=lambda key: worst[key])
+    return f"{swarm} ({variant} coding), {percent(worst[variant, swarm])}"
+
+
+def _gaps(
+    found: Mapping[tuple[str, str, str], Summary], cases: set[str], variant: str, swarm: str
+) -> list[float]:
+    """Median gaps on the cases where at least half of the seeds have a verified motion."""
+    mine = [found[case, variant, swarm] for case in cases if (case, variant, swarm) in found]
+    return [s.gap for s in mine if s.gap is not None and 2 * s.unsolved < s.seeds]
 
 
 def _reached(summary: Summary | None) -> bool:
@@ -116,15 +139,22 @@ def _papers(papers: Sequence[PaperAtAGlance]) -> Answer | None:
         return None
     broken = [paper for paper in judged if paper.stretch]
     lines = []
-    for paper in judged:
+    for paper in broken:
         line = f"{paper.case}: published {paper.published:.4g} s"
+        if paper.slowed is not None:
+            line += f", {paper.slowed:.4g} s once it keeps them"
         if paper.optimum is not None:
-            line += f", best spline {paper.optimum:.4g} s"
-        if paper.fastest is not None:
-            line += f", fastest motion {paper.fastest:.4g} s"
+            line += f", best of its family {paper.optimum:.4g} s"
         lines.append(line)
-    text = f"{len(broken)} of {len(judged)} published totals belong to a motion that breaks its limits"
-    return Answer(text, f"{'; '.join(lines)}.", "papers")
+    text = f"{len(broken) or 'None'} of {len(judged)} published totals belongs to a motion that breaks limits"
+    if len(broken) > 1:
+        text = f"{len(broken)} of {len(judged)} published totals belong to a motion that breaks limits"
+    detail = (
+        f"{'; '.join(lines)}."
+        if lines
+        else "Every published motion that can be judged keeps its limits."
+    )
+    return Answer(text, detail, "papers")
 
 
 def _bounds(rows: Iterable[Row], ladders: Mapping[str, LadderRecord]) -> Answer | None:

@@ -5,10 +5,13 @@ from __future__ import annotations
 from collections.abc import Iterable, Mapping
 from typing import Any
 
+from compare.audit.motion.printed_motion import Kept
 from compare.benchmark.ladders import LadderRecord
 from compare.benchmark.records.rows import Row
 from compare.benchmark.summaries import best_row
 from compare.report.papers_at_a_glance import PaperAtAGlance
+
+_KEPT = (Kept.YES, Kept.WITHIN_ROUNDING)
 
 
 def arms_chart(
@@ -48,9 +51,12 @@ def arms_chart(
             marks.append(_mark("fastest", "fastest motion known", fastest, unit))
         paper = printed.get(case)
         if paper is not None and paper.published is not None:
-            broken = bool(paper.stretch) or paper.leaves_position_limits
-            words = "published, breaks limits" if broken else "published"
-            marks.append(_mark("broken" if broken else "kept", words, paper.published, unit))
+            broken = paper.stretch is not None or paper.leaves_position_limits
+            kind = "broken" if broken else "kept" if paper.keeps in _KEPT else "unjudged"
+            words = (
+                "published, breaks limits" if broken else f"published; keeps its limits: {paper.keeps}"
+            )
+            marks.append(_mark(kind, words, paper.published, unit))
             said.append(f"{case}: published {paper.published / unit:.2f} times the best of its family")
             if paper.slowed is not None and paper.stretch:
                 marks.append(_mark("slowed", "the same, slowed down to keep them", paper.slowed, unit))

@@ -6,7 +6,8 @@ const MARKS = {
   family: ["green", "diamond", "best of its family"],
   swarm: ["purple", "circle-open", "best swarm"],
   broken: ["red", "x", "published, breaks limits"],
-  kept: ["ink", "square", "published"],
+  kept: ["ink", "square", "published, keeps its limits"],
+  unjudged: ["ink", "square-open", "published, prints no limits or no durations"],
   slowed: ["orange", "square", "published, slowed down to keep them"],
 };
 
