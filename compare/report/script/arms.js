@@ -7,7 +7,7 @@ const MARKS = {
   swarm: ["purple", "circle-open", "best swarm"],
   broken: ["red", "x", "published, breaks limits"],
   kept: ["ink", "square", "published, keeps its limits"],
-  unjudged: ["ink", "square-open", "published, prints no limits or no durations"],
+  unjudged: ["ink", "square-open", "published, prints no limits"],
   slowed: ["orange", "square", "published, slowed down to keep them"],
 };
 

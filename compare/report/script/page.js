@@ -141,6 +141,7 @@ addEventListener("hashchange", openTarget);
 
 addEventListener("DOMContentLoaded", () => {
   setTheme(dark.matches ? "dark" : "light");
+  if (matchMedia("(max-width: 60rem)").matches) document.querySelector("details.chapters").open = false;
   for (const figure of figures) eye.observe(figure);
   openTarget();
 });
