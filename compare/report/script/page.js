@@ -113,29 +113,29 @@ document.getElementById("theme").addEventListener("click", () => {
 });
 dark.addEventListener("change", () => setTheme(dark.matches ? "dark" : "light"));
 
-// paper: light, everything open, every chart drawn
+// paper: light colours, and every chart that is in an open part
 let before = null;
 addEventListener("beforeprint", () => {
   before = root.dataset.theme;
-  for (const part of document.querySelectorAll("details:not([open])")) {
-    part.open = true;
-    part.dataset.printed = "yes";
-  }
   root.dataset.theme = "light";
-  for (const figure of figures) draw(figure);
+  for (const figure of figures) if (!figure.closest("details:not([open])")) draw(figure);
 });
-addEventListener("afterprint", () => {
-  for (const part of document.querySelectorAll("details[data-printed]")) {
-    part.open = false;
-    delete part.dataset.printed;
-  }
-  setTheme(before);
-});
+addEventListener("afterprint", () => setTheme(before));
 
-// a link into a closed part opens it
+// a link to a closed part, or to the heading above one, opens it
 function openTarget() {
-  const target = location.hash && document.getElementById(decodeURIComponent(location.hash.slice(1)));
+  const id = decodeURIComponent(location.hash.slice(1));
+  const target = id && document.getElementById(id);
+  if (!target) return;
   for (let part = target; part; part = part.parentElement) if (part.tagName === "DETAILS") part.open = true;
+  const below = document.querySelector(`details[data-of="${CSS.escape(id)}"]`);
+  if (below) below.open = true;
+  target.scrollIntoView();
+}
+for (const button of document.querySelectorAll("button[data-all]")) {
+  button.addEventListener("click", () => {
+    for (const part of document.querySelectorAll(`details.${button.dataset.all}`)) part.open = true;
+  });
 }
 addEventListener("hashchange", openTarget);
 
