@@ -1,4 +1,4 @@
-"""The picture of the README: ``python docs/pictures/ladder.py`` computes and draws ``docs/static/ladder.svg``."""
+"""The picture of the README: ``python docs/pictures/ladder.py`` computes it and writes ``ladder.svg``."""
 
 from __future__ import annotations
 
@@ -36,7 +36,8 @@ def numbers() -> dict[str, float]:
         f.check(problem, family.trajectory(problem, np.array(durations)))
         for durations in (rule.claimed, rule.durations, printed)
     )
-    assert slowed.feasible and not claim.feasible
+    assert slowed.feasible
+    assert not claim.feasible
     assert published.stretch < 1.0001  # within the rounding of its digits
     return {
         "no motion is faster": f.free_form_bound(problem).seconds,
@@ -74,12 +75,13 @@ def draw(found: dict[str, float], path: Path) -> None:
     )  # fmt: skip
     axes = figure.add_axes((0.29, 0.13, 0.68, 0.66), facecolor="none")
     least, spline = found["no motion is faster"], found["no 3-5-3 spline is faster"]
+    above = {key: f"{found[key] / spline - 1:+.1%}" for key in ("published", "stop at each waypoint")}
     shown = [
         ("fastest motion of all", "fastest motion", GREEN, ""),
         ("fastest 3-5-3 spline", "fastest 3-5-3 spline", GREEN, ""),
-        ("published by the paper", "published", BLUE, f"{found['published'] / spline - 1:+.1%}"),
-        ("full stop at each waypoint", "stop at each waypoint", GREY, f"{found['stop at each waypoint'] / spline - 1:+.1%}"),
-    ]  # fmt: skip
+        ("published by the paper", "published", BLUE, above["published"]),
+        ("full stop at each waypoint", "stop at each waypoint", GREY, above["stop at each waypoint"]),
+    ]
     for row, (label, key, colour, more) in enumerate(shown):
         axes.barh(row, found[key], height=0.56, color=colour)
         axes.text(0.08, row, f"{found[key]:.3f} s", color="white", va="center", weight="bold")
@@ -106,7 +108,9 @@ def draw(found: dict[str, float], path: Path) -> None:
     figure.text(0.03, 0.92, "Six joints, four waypoints: the arm of Wang 2025 (sr4c)", weight="bold")
     metadata = {"Date": None, "Title": "The ladder of sr4c", "Description": json.dumps(found)}
     figure.savefig(path, metadata=metadata)
-    path.write_text("\n".join(line.rstrip() for line in path.read_text("utf-8").splitlines()) + "\n", "utf-8")
+    path.write_text(
+        "\n".join(line.rstrip() for line in path.read_text("utf-8").splitlines()) + "\n", "utf-8"
+    )
 
 
 if __name__ == "__main__":
