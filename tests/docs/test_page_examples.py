@@ -10,6 +10,7 @@ import shlex
 import sqlite3
 import subprocess
 import sys
+import tomllib
 from contextlib import closing, suppress
 from pathlib import Path
 
@@ -21,6 +22,7 @@ from compare.__main__ import application
 from compare.benchmark.records.store import Store
 from compare.commands import COMMANDS
 from formulations import load, parse
+from formulations.problem.toml_file.keys import PROBLEM_KEYS
 
 ROOT = Path(__file__).parents[2]
 DOCS = ROOT / "docs"
@@ -176,10 +178,17 @@ def test_the_table_and_the_picture_of_the_readme_are_what_is_computed() -> None:
 
 
 def test_the_problem_files_of_the_reference_are_problems() -> None:
-    first, second = blocks(DOCS / "reference" / "problem_file.md", "toml")
+    first, files, second = blocks(DOCS / "reference" / "problem_file.md", "toml")
     assert parse(first[1]).dof == 2
+    assert set(tomllib.loads(files[1])) <= set(PROBLEM_KEYS)
     pytest.importorskip("eaik")
     assert parse(second[1]).waypoints.shape == (2, 6)
+
+
+def test_every_extra_is_on_the_page_of_installing() -> None:
+    rows = re.findall(r"^\| `(\w+)` \|", (DOCS / "howto" / "install.md").read_text("utf-8"), re.M)
+    project = tomllib.loads((ROOT / "pyproject.toml").read_text("utf-8"))["project"]
+    assert sorted(rows) == sorted(project["optional-dependencies"])
 
 
 def test_the_comparison_of_lines_can_fail() -> None:
