@@ -91,7 +91,7 @@ def test_the_examples_of_a_page_run_in_their_order(path: Path, tmp_path: Path) -
 
 @pytest.mark.long
 def test_the_first_commands_of_the_readme_run(tmp_path: Path) -> None:
-    (tmp_path / "mine.py").write_text(blocks(DOCS / "swarms.md", "python")[0][1])
+    (tmp_path / "mine.py").write_text(blocks(DOCS / "howto" / "own_swarm.md", "python")[0][1])
     lines = [line for _, text in blocks(README, "sh") for line in text.splitlines()]
     # these run in test_worked_examples.py, or take minutes
     others = ("new", "plan", "check", "grade", "all")
