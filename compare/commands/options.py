@@ -160,7 +160,7 @@ def _read_swarm(kind: Any, tokens: Sequence[Token]) -> str:
 
 _OWN = (
     "a name of docs/reference/algorithms.md; library:Name of mealpy, pymoo, nevergrad, minion; or your own,"
-    " module:function"
+    " module:function or FILE.py:function"
 )
 
 

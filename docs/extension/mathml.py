@@ -39,8 +39,11 @@ def _mathml(node: nodes.Element, *, block: bool) -> str:
         shown = latex2mathml.tex2mathml(text, as_block=block)
     except MathError as error:
         raise ExtensionError(f"formula {text!r}: {error}") from error
-    for sign in "|/":  # of a modulus and a quotient; MathML would put the room of a relation around them
+    for (
+        sign
+    ) in "|/":  # of a modulus and a quotient; MathML would put the room of a relation around them
         shown = shown.replace(
-            f'<mo stretchy="false">{sign}</mo>', f'<mo stretchy="false" lspace="0" rspace="0">{sign}</mo>'
+            f'<mo stretchy="false">{sign}</mo>',
+            f'<mo stretchy="false" lspace="0" rspace="0">{sign}</mo>',
         )
     return shown
