@@ -66,14 +66,14 @@ def draw(found: dict[str, float], path: Path) -> None:
     from matplotlib.figure import Figure
     from matplotlib.patches import FancyBboxPatch
 
-    figure = Figure(figsize=(9.6, 4.5), facecolor="none")
+    figure = Figure(figsize=(7.7, 4.5), facecolor="none")
     figure.add_artist(
         FancyBboxPatch(
             (0.01, 0.015), 0.98, 0.97, boxstyle="round,pad=0,rounding_size=0.02", fc="white", ec="#bbbbbb",
-            transform=figure.transFigure, zorder=-1, mutation_aspect=9.6 / 4.5,
+            transform=figure.transFigure, zorder=-1, mutation_aspect=7.7 / 4.5,
         )
     )  # fmt: skip
-    axes = figure.add_axes((0.29, 0.13, 0.68, 0.66), facecolor="none")
+    axes = figure.add_axes((0.325, 0.14, 0.655, 0.63), facecolor="none")
     least, spline = found["no motion is faster"], found["no 3-5-3 spline is faster"]
     above = {key: f"{found[key] / spline - 1:+.1%}" for key in ("published", "stop at each waypoint")}
     shown = [
@@ -101,7 +101,7 @@ def draw(found: dict[str, float], path: Path) -> None:
     for place, text in ((least, "no motion\nis faster"), (spline, "no 3-5-3 spline\nis faster")):
         axes.axvline(place, color=INK, lw=1.2, ls=(0, (4, 2)))
         axes.text(place, -0.52, f"{text}: proved", ha="center", va="bottom", fontsize=10)
-    axes.set(xlim=(0, 5.75), ylim=(last + 0.5, -0.45), yticks=[])
+    axes.set(xlim=(0, 6.2), ylim=(last + 0.5, -0.45), yticks=[])
     axes.set_xlabel("time through the four waypoints [s]")
     for side in ("top", "right", "left"):
         axes.spines[side].set_visible(False)
