@@ -31,6 +31,7 @@ PAGES = sorted([*DOCS.rglob("*.md"), README])
 ROBOTS = DOCS / "robots.md"  # runs in tests/compare/commands/test_worked_examples.py
 NEEDS = {  # extras of the examples
     "better_swarm": ("statsmodels", "scikit_posthocs", "baycomp"),
+    "certificate": ("flint",),
     "certificates": ("flint",),
     "cite": ("mealpy",),
     "could_it_be_that_fast": ("flint",),
