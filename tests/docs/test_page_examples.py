@@ -105,7 +105,7 @@ def parsed(line: str) -> None:
     """Let the parser of the command line read a call, without running it."""
     line = re.sub(r"^python -m compare[. ]", "timebound ", line)
     line = re.sub(r"\b(mine|module)(\.py)?:\w+", "whale", line)  # there is no such file
-    words = shlex.split(line, comments=True)
+    words = shlex.split(line.replace(" 2>&1 ", " "), comments=True)
     if words[1] != "NAME" and not words[1].startswith("-"):
         assert words[1] in COMMANDS, line
         application(words[1]).parse_args(words[1:], exit_on_error=False, print_error=False)
