@@ -146,8 +146,8 @@ def first_steps() -> str:
         listed = [c for c in COMMANDS.values() if c.group == group]
         lines += [group, *(f"  {c.name:19}{c.purpose}" for c in listed), ""]
     lines += [
-        "FILE.toml states a problem (see the README); the name of a shipped case, such as sr4c, stands",
-        "for its file. timebound NAME --help shows the options of a command, with an example.",
+        "FILE.toml states a problem (docs/reference/problem_file.md); the name of a shipped case, such as",
+        "sr4c, stands for its file. timebound NAME --help shows the options of a command, with an example.",
     ]
     return "\n".join(lines)
 

@@ -70,34 +70,35 @@ def found_swarms(text: str) -> tuple[str, ...]:
     Parameters
     ----------
     text : str
-        Names of the registry, ``library:Name``, or ``module:function``.
+        Names of the registry, ``library:Name``, ``module:function`` or ``FILE.py:function``.
 
     Returns
     -------
     tuple of str
-        The names, each once, in the order typed.
+        The names, each once, in the order typed; a file is named by its module.
 
     Raises
     ------
     ValueError
         There is none of a name, with the reason, or its library is missing.
     """
+    from compare.grading.names import swarm_name
     from metaheuristics import (
         ALGORITHMS,
         NOT_REPRODUCIBLE,
         MissingLibraryError,
         UnknownAlgorithmError,
-        algorithm,
     )
 
     wanted = tuple(dict.fromkeys(name.strip() for name in text.split(",") if name.strip()))
     if not wanted:
         raise ValueError(f"none given (known: {', '.join(ALGORITHMS)})")
+    found = []
     for name in wanted:
         try:
-            algorithm(name)
+            found.append(swarm_name(name))
         except (UnknownAlgorithmError, MissingLibraryError) as error:
-            if ":" not in name and name not in NOT_REPRODUCIBLE:
+            if ":" not in name and ".py" not in name and name not in NOT_REPRODUCIBLE:
                 known(name, ALGORITHMS)  # says which name is near
             raise ValueError(str(error)) from error
-    return wanted
+    return tuple(dict.fromkeys(found))

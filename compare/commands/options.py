@@ -159,8 +159,8 @@ def _read_swarm(kind: Any, tokens: Sequence[Token]) -> str:
 
 
 _OWN = (
-    "a name of docs/swarms.md; library:Name of mealpy, pymoo, nevergrad, minion; or your own,"
-    " module:function"
+    "a name of docs/reference/algorithms.md; library:Name of mealpy, pymoo, nevergrad, minion; or your own,"
+    " module:function or FILE.py:function"
 )
 
 

@@ -36,6 +36,14 @@ def show_block(writer: Any, node: nodes.Element) -> None:
 def _mathml(node: nodes.Element, *, block: bool) -> str:
     text = node.astext()
     try:
-        return latex2mathml.tex2mathml(text, as_block=block)
+        shown = latex2mathml.tex2mathml(text, as_block=block)
     except MathError as error:
         raise ExtensionError(f"formula {text!r}: {error}") from error
+    for (
+        sign
+    ) in "|/":  # of a modulus and a quotient; MathML would put the room of a relation around them
+        shown = shown.replace(
+            f'<mo stretchy="false">{sign}</mo>',
+            f'<mo stretchy="false" lspace="0" rspace="0">{sign}</mo>',
+        )
+    return shown

@@ -7,7 +7,7 @@ the driver too, so that every fault of the algorithm has its name; this side che
 What the process is given: the box, the budget, the seed, the points to start from, the algorithm, its
 parameters, and where modules are found.  Its working directory is an empty temporary folder, its environment
 a short list of variables, its standard streams are closed, and its command line names no file of the
-comparison.  It runs with the rights of the user all the same: see "Isolation" in docs/swarms.md.
+comparison.  It runs with the rights of the user all the same: see docs/reference/driver.md.
 """
 
 from __future__ import annotations

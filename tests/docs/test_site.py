@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import runpy
 import subprocess
 import sys
 from collections.abc import Iterator
@@ -144,3 +145,28 @@ def test_formulas_are_on_the_pages_without_a_script(site: Path) -> None:
     path = site / "methods" / "every_motion.html"
     assert path.read_text("utf-8").count("<math ") > 50
     assert not [url for url in page(path).loads if "mathjax" in url.lower()]
+
+
+def luminance(colour: str) -> float:
+    """Relative luminance (WCAG 2) of six hexadecimal digits."""
+    shares = [int(colour[k : k + 2], 16) / 255 for k in (0, 2, 4)]
+    red, green, blue = (s / 12.92 if s <= 0.03928 else ((s + 0.055) / 1.055) ** 2.4 for s in shares)
+    return 0.2126 * red + 0.7152 * green + 0.0722 * blue
+
+
+def contrast(one: str, other: str) -> float:
+    low, high = sorted((luminance(one), luminance(other)))
+    return (high + 0.05) / (low + 0.05)
+
+
+@pytest.mark.parametrize("style", ["pygments_style", "pygments_dark_style"])
+def test_code_can_be_read_in_every_colour(style: str) -> None:
+    styles = pytest.importorskip("pygments.styles")
+    pytest.importorskip("furo")  # brings the styles
+    assert contrast("777777", "ffffff") == pytest.approx(4.48, abs=0.01)  # just too little for AA
+    settings = runpy.run_path(str(ROOT / "docs" / "conf.py"))
+    found = styles.get_style_by_name(settings[style])
+    ground = found.background_color.removeprefix("#")
+    for token, look in found:
+        if look["color"]:
+            assert contrast(look["color"], look["bgcolor"] or ground) >= 4.5, token

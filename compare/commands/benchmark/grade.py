@@ -28,14 +28,14 @@ def grade_swarm(
 
     Both run on the held-out instances of the benchmark, with the same seeds and budget, beside CMA-ES,
     differential evolution and random search. The verdict is better, worse, equal or undecided, by the
-    rule of docs/swarms.md; the page is DIR/grade.html. Runs are kept in DIR/results.sqlite: a second
+    rule of docs/methods/grade.md; the page is DIR/grade.html. Runs are kept in DIR/results.sqlite: a second
     call computes nothing again.
 
     Parameters
     ----------
     swarm
         mine.py:swarm, module:function, library:Name of mealpy, pymoo, nevergrad, minion, or a name of
-        docs/swarms.md.
+        docs/reference/algorithms.md.
     against
         The swarm that it is compared with, named in the same ways.
     seeds

@@ -31,7 +31,7 @@ def versus(
     Parameters
     ----------
     first
-        mine.py:swarm, module:function, library:Name, or a name of docs/swarms.md.
+        mine.py:swarm, module:function, library:Name, or a name of docs/reference/algorithms.md.
     second
         The other one.
     seeds

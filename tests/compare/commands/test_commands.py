@@ -1,4 +1,4 @@
-"""Every command of the list: help, README, bad input in one line, exit codes, a quick start."""
+"""Every command of the list: help, its page, bad input in one line, exit codes, a quick start."""
 
 from __future__ import annotations
 
@@ -49,8 +49,8 @@ def test_help_names_the_command_its_options_and_an_example(
 
 
 @pytest.mark.parametrize("name", COMMANDS)
-def test_the_readme_has_every_command(name: str) -> None:
-    lines = (ROOT / "README.md").read_text("utf-8").splitlines()
+def test_the_page_of_the_commands_has_every_command(name: str) -> None:
+    lines = (ROOT / "docs" / "reference" / "commands.md").read_text("utf-8").splitlines()
     assert any(line.startswith(f"timebound {name} ") or line == f"timebound {name}" for line in lines)
 
 

@@ -24,8 +24,8 @@ def raises(task, *, population=20):
 
 
 def documented() -> str:
-    """The swarm that docs/swarms.md shows."""
-    text = (ROOT / "docs" / "swarms.md").read_text("utf-8")
+    """The swarm that docs/howto/own_swarm.md shows."""
+    text = (ROOT / "docs" / "howto" / "own_swarm.md").read_text("utf-8")
     (block,) = re.findall(r"```python\n(.*?)```", text, re.DOTALL)
     return str(block)
 

@@ -8,6 +8,7 @@ from pathlib import Path
 import pytest
 
 from compare.__main__ import main
+from compare.commands.names import found_swarms
 from compare.grading.names import swarm_name
 
 SWARM = """from metaheuristics import ALGORITHMS
@@ -71,3 +72,12 @@ def test_the_command_says_it_in_one_line_with_code_2(capsys: pytest.CaptureFixtu
     assert "is the swarm itself" in capsys.readouterr().err
     assert main(["grade", "mpso", "--cases", "sr4d"]) == 2
     assert "sr4d" in capsys.readouterr().err
+
+
+def test_a_file_is_taken_wherever_swarms_are_named(folder: Path) -> None:
+    file = folder / "my_flock.py"
+    assert found_swarms(f"{file}:swarm,pso,my_flock:swarm") == ("my_flock:swarm", "pso")
+    with pytest.raises(ValueError, match=r"defines no 'swarn'; did you mean 'swarm'\?"):
+        found_swarms(f"{file}:swarn")
+    with pytest.raises(ValueError, match=r"there is no file nowhere\.py"):
+        found_swarms("nowhere.py:swarm")
