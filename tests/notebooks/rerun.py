@@ -1,4 +1,4 @@
-"""Run a notebook from a clean kernel; as a script, store what it gives: ``python tests/notebooks/rerun.py [NAME ...]``."""
+"""Run a notebook from a clean kernel; ``python tests/notebooks/rerun.py [NAME ...]`` stores what it gives."""
 
 from __future__ import annotations
 
