@@ -75,6 +75,7 @@ def test_pictures_come_early_are_stored_and_small(path: Path) -> None:
     cells = code(stored(path))
     told = [cell for cell in cells if not cell.source.startswith("%%writefile")]
     assert any(pictures(cell) for cell in told[:2])
+    assert all(pictures(cell) for cell in cells if "plt.show()" in cell.source)
     shown = [picture for cell in cells for picture in pictures(cell)]
     assert len(shown) >= 2
     for picture in shown:
