@@ -119,7 +119,7 @@ def climbed(case: str) -> Ladder:
 
 @pytest.hookimpl(optionalhook=True)
 def pytest_xdist_make_scheduler(config: pytest.Config, log: Any) -> Any:
-    """The tests of a file go to one worker, but those of notebooks go one by one: each has a kernel of its own."""
+    """The tests of a file go to one worker, but those of notebooks one by one: each has a kernel of its own."""
     from xdist.scheduler import LoadFileScheduling
 
     class ByFile(LoadFileScheduling):

@@ -131,7 +131,8 @@ def test_every_notebook_is_shown_with_its_pictures_and_its_answer(site: Path) ->
     for path in notebooks:
         name = f"tutorials/notebooks/{path.stem}"
         assert " Answer. " in shown(site, name)
-        assert "|:--|" not in shown(site, name)  # its tables are tables
+        if "|:--|" in path.read_text("utf-8"):
+            assert "<table" in (site / f"{name}.html").read_text("utf-8")
         assert sum(url.endswith(".png") for url in page(site / f"{name}.html").loads) >= 2
 
 
