@@ -24,6 +24,7 @@ html_show_sourcelink = False
 myst_enable_extensions = ["amsmath", "deflist", "dollarmath"]
 myst_heading_anchors = 3
 nb_execution_mode = "off"  # the tests run the notebooks; what is stored in them is shown
+nb_render_markdown_format = "myst"  # answers of notebooks have tables
 
 autodoc_member_order = "bysource"
 autodoc_typehints = "none"  # the docstrings have types, shapes and units

@@ -6,6 +6,7 @@ import functools
 import os
 import pickle
 from pathlib import Path
+from typing import Any
 
 # before numpy looks: the workers of a run are its threads
 for name in ("OMP_NUM_THREADS", "OPENBLAS_NUM_THREADS", "MKL_NUM_THREADS"):
@@ -114,3 +115,15 @@ def climbed(case: str) -> Ladder:
     part.write_bytes(pickle.dumps(found))
     part.replace(path)
     return found
+
+
+@pytest.hookimpl(optionalhook=True)
+def pytest_xdist_make_scheduler(config: pytest.Config, log: Any) -> Any:
+    """The tests of a file go to one worker, but those of notebooks one by one: each has a kernel of its own."""
+    from xdist.scheduler import LoadFileScheduling
+
+    class ByFile(LoadFileScheduling):
+        def _split_scope(self, nodeid: str) -> str:
+            return nodeid if "notebooks/" in nodeid else super()._split_scope(nodeid)
+
+    return ByFile(config, log) if config.getoption("dist") == "loadfile" else None

@@ -44,7 +44,7 @@ def outcome_figure(found: Grading) -> Figure:
     for y, duel in enumerate(duels):
         colour, marker, _ = _OUTCOMES[duel.outcome]
         axes.plot([duel.pair.low, duel.pair.high], [y, y], color=colour, lw=1.2)
-        axes.plot(duel.pair.a12, y, marker, color=colour, ms=5)
+        axes.plot(duel.pair.a12, y, marker, color=colour, ms=5, clip_on=False)  # 1 is at the edge
     for colour, marker, word in _OUTCOMES.values():
         axes.plot([], [], marker, color=colour, label=word)
     effect = found.contest.effect

@@ -126,6 +126,17 @@ def test_every_entry_of_the_registries_is_in_its_table(site: Path) -> None:
     assert all(f"{{{key}," in shown(site, "reference/references") for key in entries())
 
 
+def test_every_notebook_is_shown_with_its_pictures_and_its_answer(site: Path) -> None:
+    notebooks = sorted((ROOT / "notebooks").glob("*.ipynb"))
+    assert notebooks
+    for path in notebooks:
+        name = f"tutorials/notebooks/{path.stem}"
+        assert " Answer. " in shown(site, name)
+        if "|:--|" in path.read_text("utf-8"):
+            assert "<table" in (site / f"{name}.html").read_text("utf-8")
+        assert sum(url.endswith(".png") for url in page(site / f"{name}.html").loads) >= 2
+
+
 def test_every_key_of_the_files_is_explained(site: Path) -> None:
     words = set(shown(site, "reference/problem_file").split())
     assert {*PROBLEM_KEYS, *LIMIT_KEYS, *POSE_KEYS} <= words
