@@ -65,7 +65,7 @@ def test_random_problems_have_the_optimum_of_many_starts(
     family: str, position: bool, limited: str
 ) -> None:
     proved = 0
-    for seed in range(4):
+    for seed in range(3):
         rng = np.random.default_rng([seed, position, len(limited)])
         segments = 3 if family == "3-5-3" else int(rng.integers(2, 5))
         problem = random_problem(rng, segments, int(rng.choice([1, 2, 3])), limited)
