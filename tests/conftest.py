@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import functools
+import gc
 import os
 import pickle
 from collections import Counter
@@ -38,6 +39,11 @@ def pytest_collection_modifyitems(items: list[pytest.Item]) -> None:
     """The files with the most slow tests come first: a worker that began one last would end alone."""
     slow = Counter(item.path for item in items if item.get_closest_marker("slow"))
     items.sort(key=lambda item: -slow[item.path])
+
+
+def pytest_collection_finish() -> None:
+    """Thousands of tests stay alive to the end: no collection of garbage need look at them again."""
+    gc.freeze()
 
 
 def powers_of_ten(low: float, high: float) -> st.SearchStrategy[float]:
