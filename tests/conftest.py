@@ -35,9 +35,12 @@ settings.register_profile(
 settings.load_profile("timebound")
 
 
+@pytest.hookimpl(trylast=True)
 def pytest_collection_modifyitems(items: list[pytest.Item]) -> None:
     """The files with the most slow tests come first: a worker that began one last would end alone."""
-    slow = Counter(item.path for item in items if item.get_closest_marker("slow"))
+    slow = Counter(
+        item.path for item in items if {"slow", "long"} & {m.name for m in item.iter_markers()}
+    )
     items.sort(key=lambda item: -slow[item.path])
 
 
