@@ -8,7 +8,7 @@ from pathlib import Path
 import pytest
 from recipes import Copy
 
-pytestmark = pytest.mark.slow
+pytestmark = pytest.mark.long
 
 
 @pytest.fixture

@@ -10,8 +10,10 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 from math import comb
+from typing import Any
 
 import numpy as np
+from numpy.typing import NDArray
 
 from formulations.problem.arrays import Array
 
@@ -154,6 +156,31 @@ def evaluated(polynomials: Array, points: Array) -> Array:
     return values
 
 
+def roots_of(polynomials: Array) -> NDArray[Any]:
+    """Find all roots of polynomials of one degree as eigenvalues of their companion matrices.
+
+    Parameters
+    ----------
+    polynomials : Array, shape (m, degree + 1)
+        Ascending coefficients; the last ones are not zero.
+
+    Returns
+    -------
+    ndarray, shape (m, degree)
+        Real or complex roots, in no order.
+
+    Raises
+    ------
+    numpy.linalg.LinAlgError
+        If a quotient of coefficients is not finite.
+    """
+    degree = polynomials.shape[1] - 1
+    companion = np.zeros((len(polynomials), degree, degree))
+    companion[:, 1:, :-1] = np.eye(degree - 1)
+    companion[:, :, -1] = -polynomials[:, :-1] / polynomials[:, -1:]
+    return np.linalg.eigvals(companion)
+
+
 def _turning_points(slopes: Array) -> Array:
     """Points of [0, 1] that include every root of the polynomials (..., k): (..., k - 1).
 
@@ -192,11 +219,7 @@ def _companion_roots(rows: Array) -> Array:
     )
     for degree in np.unique(degrees[degrees > 0]):
         mine = np.flatnonzero(degrees == degree)
-        polynomials = rows[mine, : degree + 1]
-        companion = np.zeros((len(mine), degree, degree))
-        companion[:, 1:, :-1] = np.eye(degree - 1)
-        companion[:, :, -1] = -polynomials[:, :-1] / polynomials[:, -1:]
-        roots = np.linalg.eigvals(companion).real.clip(0.0, 1.0)
+        roots = roots_of(rows[mine, : degree + 1]).real.clip(0.0, 1.0)
         slopes = differentiated(rows[mine], 1)
         for _ in range(3):
             step = evaluated(rows[mine], roots) / evaluated(slopes, roots)

@@ -114,7 +114,7 @@ def test_a_planted_line_is_a_fault_in_the_report_and_none_of_its_numbers_is_show
         assert "Stored rows that do not hold" in text
 
 
-@pytest.mark.slow
+@pytest.mark.long
 def test_a_killed_run_leaves_readable_rows_and_resume_ends_like_an_unbroken_one(
     report: Path, tmp_path: Path
 ) -> None:

@@ -58,7 +58,7 @@ def rows(folder: Path) -> list[dict[str, str]]:
         return list(csv.DictReader(lines))
 
 
-@pytest.mark.slow
+@pytest.mark.long
 def test_the_recipe_for_a_swarm(tmp_path: Path) -> None:
     text = recipe()
     folder = copy_of_project(tmp_path)

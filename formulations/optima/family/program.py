@@ -22,6 +22,7 @@ import numpy as np
 from formulations.deadlines import NEVER, Deadline
 from formulations.deadlines.ipopt import StoppableIpopt
 from formulations.families import Family
+from formulations.motion.extremes import differentiated, evaluated, roots_of
 from formulations.problem.arrays import Array
 from formulations.problem.problem import Problem
 
@@ -217,17 +218,19 @@ class PosedProgram:
 
     def _extremes(self, spline: Array, follow: bool) -> Array:
         """Where the constraints are posed: normalised time, and 1 if the place follows its extreme."""
-        found: dict[tuple[int, int, int], Array] = {}
+        found: dict[tuple[int, int], Array] = {}
+        for order in {order for _, _, order, which in self.posed if which >= 0}:
+            for degree in {*self.degrees}:
+                pieces = [k for k, own in enumerate(self.degrees) if own == degree]
+                values = differentiated(spline[pieces, :, : degree + 1], order)
+                inner = _inner_extremes(values.reshape(-1, values.shape[-1]))
+                found |= {
+                    (k, order): each
+                    for k, each in zip(pieces, np.split(inner, len(pieces)), strict=True)
+                }
         places = np.zeros((len(self.posed), 2))
         for row, (j, k, order, which) in enumerate(self.posed):
-            if which < 0:
-                places[row, 0] = which + 2.0
-                continue
-            key = (j, k, order)
-            if key not in found:
-                value = np.polynomial.Polynomial(spline[k, j, : self.degrees[k] + 1]).deriv(order)
-                found[key] = _inner_extremes(value)
-            places[row] = found[key][which]
+            places[row] = found[k, order][j, which] if which >= 0 else (which + 2.0, 0.0)
         places[:, 1] *= follow
         return places.ravel()
 
@@ -248,23 +251,28 @@ def touches(x: float, bound: float) -> bool:
     return abs(x - bound) <= 1e-9 * (1.0 + abs(x))
 
 
-def _inner_extremes(value: np.polynomial.Polynomial) -> Array:
-    """Inner extremes of a polynomial in (0, 1), with evenly spread places to fill up.
+def _inner_extremes(values: Array) -> Array:
+    """Inner extremes in (0, 1) of polynomials (m, degree + 1), with evenly spread places to fill up.
 
-    Returns (degree - 1, 2): the place, and 1 if it is a true extreme that can be followed.
+    Returns (m, degree - 1, 2): the place, and 1 if it is a true extreme that can be followed.
     """
-    count = len(value.coef) - 2
-    slope = value.deriv(1)
-    size = float(np.abs(slope.coef).max())
-    places = np.stack([(np.arange(count) + 1.0) / (count + 1.0), np.zeros(count)], axis=1)
-    if size > 0.0:
-        roots = slope.trim(1e-14 * size).roots()
-        inner = np.sort(roots[np.abs(roots.imag) < 1e-9].real) if len(roots) else np.empty(0)
-        inner = inner[(inner > 0.0) & (inner < 1.0)][:count]
-        places[: len(inner), 0] = inner
-        # at an inflection there is no curvature for the Newton step
-        places[: len(inner), 1] = np.abs(slope.deriv(1)(inner)) > 1e-6 * size
-    return places
+    slopes = differentiated(values, 1)
+    count = slopes.shape[1] - 1
+    size = np.abs(slopes).max(axis=1, keepdims=True)
+    significant = np.abs(slopes) > 1e-14 * size
+    degrees = np.where(significant.any(axis=1), count - significant[:, ::-1].argmax(axis=1), 0)
+    inner = np.full((len(slopes), count), np.inf)
+    for degree in np.unique(degrees[degrees > 0]):
+        mine = np.flatnonzero(degrees == degree)
+        roots = roots_of(slopes[mine, : degree + 1])
+        inside = (np.abs(roots.imag) < 1e-9) & (roots.real > 0.0) & (roots.real < 1.0)
+        inner[mine, :degree] = np.sort(np.where(inside, roots.real, np.inf))
+    there = np.isfinite(inner)
+    spread = (np.arange(count) + 1.0) / (count + 1.0)
+    # at an inflection there is no curvature for the Newton step
+    bends = evaluated(differentiated(slopes, 1), np.where(there, inner, 0.0))
+    follow = there & (np.abs(bends) > 1e-6 * size)
+    return np.stack([np.where(there, inner, spread), follow], axis=-1)
 
 
 def _at(polynomial: list[casadi.SX], s: casadi.SX) -> casadi.SX:

@@ -4,8 +4,6 @@ from __future__ import annotations
 
 import datetime
 import json
-import subprocess
-import sys
 import tomllib
 from collections.abc import Iterator
 from copy import deepcopy
@@ -14,6 +12,7 @@ from typing import Any
 
 import pytest
 
+from compare.__main__ import main
 from compare.audit import audit, parse_papers
 from compare.audit.findings.points import points_of
 from compare.audit.hints import QUESTIONS
@@ -111,38 +110,36 @@ def test_the_further_table_of_the_template_may_be_switched_on() -> None:
     assert variant.name == "corrected"
 
 
-def test_the_command_writes_the_template_and_audits_it(tmp_path: Path) -> None:
-    def run(*words: str) -> subprocess.CompletedProcess[str]:
-        call = [sys.executable, "-m", "compare", "audit", *words]
-        return subprocess.run(call, capture_output=True, text=True, check=False, cwd=ROOT)
+def test_the_command_writes_the_template_and_audits_it(
+    tmp_path: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
+    def run(*words: str) -> tuple[int, str, str]:
+        code = main(["audit", *words])
+        return code, *capsys.readouterr()
 
     file = tmp_path / "mine.toml"
-    written = run("--template", str(file))
-    assert written.returncode == 0, written.stderr
+    assert run("--template", str(file))[0] == 0
     assert file.read_text("utf-8") == template()
-    assert run("--template").stdout == template()
-    judged = run(str(file))
-    assert judged.returncode == 0, judged.stderr
-    assert "nothing wrong was found" in judged.stdout
-    assert "HINT" not in judged.stdout
-    again = run("--template", str(file))
-    assert (again.returncode, again.stderr) == (2, f"error: --template: {file} is there already\n")
-    nowhere = run("--template", str(tmp_path / "no" / "mine.toml"))
-    assert nowhere.returncode == 2
-    assert "cannot be written" in nowhere.stderr
+    assert run("--template")[1] == template()
+    code, judged, _ = run(str(file))
+    assert code == 0
+    assert "nothing wrong was found" in judged
+    assert "HINT" not in judged
+    assert run("--template", str(file)) == (2, "", f"error: --template: {file} is there already\n")
+    code, _, nowhere = run("--template", str(tmp_path / "no" / "mine.toml"))
+    assert code == 2
+    assert "cannot be written" in nowhere
     # a fault with its hint, on the screen and as JSON
     file.write_text(template().replace('["20.0", "45.0"]', '["-20.0", "45.0"]'))
-    wrong = run(str(file), "--json", str(tmp_path / "out.json"))
-    assert (
-        "HINT: one sign wrong?\n  - tried: joint 1 of waypoint 2 with the other sign; " in wrong.stdout
-    )
+    _, wrong, _ = run(str(file), "--json", str(tmp_path / "out.json"))
+    assert "HINT: one sign wrong?\n  - tried: joint 1 of waypoint 2 with the other sign; " in wrong
     (data,) = json.loads((tmp_path / "out.json").read_text())
     (hint,) = data["hints"]
     assert hint["kind"] == "sign"
     assert hint["removes"] == hint["of"] == sum(f["fault"] for f in data["findings"])
-    near = run("cobott")
-    assert near.returncode == 2
-    assert near.stderr.endswith("did you mean 'cobot'?\n")
+    code, _, near = run("cobott")
+    assert code == 2
+    assert near.endswith("did you mean 'cobot'?\n")
 
 
 WRONG: tuple[Any, ...] = (

@@ -7,6 +7,8 @@ from pathlib import Path
 import pytest
 from commands_run import command
 
+from compare.__main__ import main
+
 
 @pytest.mark.parametrize(
     ("options", "words"),
@@ -32,14 +34,22 @@ from commands_run import command
     ],
 )
 def test_bad_input_is_one_clear_line_and_exit_code_2(
-    options: tuple[str, ...], words: tuple[str, ...]
+    options: tuple[str, ...], words: tuple[str, ...], capsys: pytest.CaptureFixture[str]
 ) -> None:
-    done = command(*options)
-    assert done.returncode == 2, done.stderr
-    last = done.stderr.strip().splitlines()[-1]
-    assert "Traceback" not in done.stderr
+    assert main(options) == 2
+    said = capsys.readouterr().err
+    assert "Traceback" not in said
+    last = said.strip().splitlines()[-1]
     for word in words:
         assert word in last
+
+
+def test_the_exit_code_and_the_line_are_those_of_the_process() -> None:
+    done = command("all", "--cases", "sr4d")
+    assert done.returncode == 2
+    assert done.stdout == ""
+    assert done.stderr.startswith("error: --cases: 'sr4d' is not known")
+    assert done.stderr.count("\n") == 1
 
 
 def test_solve_prints_the_ladder_and_writes_it_as_json(tmp_path: Path) -> None:

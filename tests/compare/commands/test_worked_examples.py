@@ -101,6 +101,7 @@ OUTPUTS = {
 }
 
 
+@pytest.mark.long
 @pytest.mark.parametrize(("index", "robot"), list(enumerate(OUTPUTS)))
 def test_each_robot_of_the_docs(index: int, robot: str, folder: Path) -> None:
     import formulations as f
@@ -120,6 +121,7 @@ def test_each_robot_of_the_docs(index: int, robot: str, folder: Path) -> None:
     keeps_limits(problem, folder / OUTPUTS[robot], robot)
 
 
+@pytest.mark.long
 def test_a_path_is_timed_anew_under_the_limits_of_the_docs(folder: Path) -> None:
     import formulations as f
 

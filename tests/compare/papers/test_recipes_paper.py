@@ -97,10 +97,10 @@ TABLE_3 = Item("Table 3", "times of joint 1", make_table_3, show_table_3, "Read 
 
 @pytest.fixture(scope="module")
 def copy(tmp_path_factory: pytest.TempPathFactory) -> Path:
-    """The three packages in a folder of their own."""
+    """The three packages in a folder of their own, with their compiled kernels, which stay valid."""
     folder = tmp_path_factory.mktemp("copy")
     for name in ("formulations", "metaheuristics", "compare"):
-        shutil.copytree(ROOT / name, folder / name, ignore=shutil.ignore_patterns("__pycache__"))
+        shutil.copytree(ROOT / name, folder / name, ignore=shutil.ignore_patterns("*.tmp.*"))
     return folder
 
 
@@ -113,7 +113,7 @@ def call(folder: Path, *words: str, code: int = 0) -> str:
     return done.stdout if code == 0 else done.stderr
 
 
-@pytest.mark.slow
+@pytest.mark.long
 def test_add_a_paper_then_a_table_of_it(copy: Path) -> None:
     # 1. add a paper: its case, and printed.toml in a folder named by author and year
     (copy / "formulations" / "problem" / "cases" / "made-up.toml").write_text(CASE)

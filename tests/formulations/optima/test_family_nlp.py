@@ -65,7 +65,9 @@ def test_an_exception_of_the_solver_is_a_status(
     problem=problems(reach=(-5.0, 1.0), position=True),
     exponents=st.lists(st.floats(-300.0, 300.0), min_size=3, max_size=3),
 )
-@settings(max_examples=20, phases=(Phase.explicit, Phase.generate))  # each costs up to a second
+# eight problems per family: the exchange is the same code for all of them, and from a start of 1e300 s it may
+# take 40 solves of 300 iterations
+@settings(max_examples=8, phases=(Phase.explicit, Phase.generate))
 def test_every_start_ends_in_a_status(family: str, problem: Problem, exponents: list[float]) -> None:
     """The law: from any positive start the solver returns durations that keep the limits, or says why."""
     assume(problem.moving_joints)

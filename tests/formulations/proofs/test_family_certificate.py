@@ -59,7 +59,7 @@ def test_the_checker_proves_every_shipped_3_5_3_case_again(case: str, tmp_path: 
         assert float.fromhex(json.loads(path.read_text())["seconds"]) == bound.seconds
 
 
-@pytest.mark.slow
+@pytest.mark.long
 def test_the_checker_proves_bagging_again(tmp_path: Path) -> None:
     bound = family_bound(load("bagging"), gap=1e-6, record=True)
     assert outcome(tmp_path, bound.certificate, "--problem", "bagging") == CERTIFIED
