@@ -135,11 +135,12 @@ def climbed(case: str) -> Ladder:
 
 @pytest.hookimpl(optionalhook=True)
 def pytest_xdist_make_scheduler(config: pytest.Config, log: Any) -> Any:
-    """The tests of a file go to one worker, but those of notebooks one by one: each has a kernel of its own."""
+    """The tests of a file go to one worker, but those of notebooks and pages one by one: each runs alone."""
     from xdist.scheduler import LoadFileScheduling
 
     class ByFile(LoadFileScheduling):
         def _split_scope(self, nodeid: str) -> str:
-            return nodeid if "notebooks/" in nodeid else super()._split_scope(nodeid)
+            alone = "notebooks/" in nodeid or "docs/test_page_examples" in nodeid
+            return nodeid if alone else super()._split_scope(nodeid)
 
     return ByFile(config, log) if config.getoption("dist") == "loadfile" else None
