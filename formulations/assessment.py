@@ -148,7 +148,7 @@ def assess(
     interpolation: str = "auto",
     tolerance: float = WAYPOINT_TOLERANCE,
     conditions: Conditions | None = None,
-    bound: bool = True,
+    bound: FreeFormBound | bool = True,
     time_limit: float = 20.0,
 ) -> Assessment:
     """Judge a motion from elsewhere, and set it beside the bound that no motion beats.
@@ -166,8 +166,8 @@ def assess(
     conditions : Conditions, optional
         What was asked of the motion beyond the problem. The bound is that of the motions that keep it, and
         says how fast they could be where a total time is asked for.
-    bound : bool, default True
-        Whether to prove a lower bound.
+    bound : bool or FreeFormBound, default True
+        Whether to prove a lower bound, or one that is proved already, of the same problem and conditions.
     time_limit : float, default 20 [s]
         The search for a better bound ends after this time.
 
@@ -190,12 +190,15 @@ def assess(
     """
     asked = conditions or Conditions()
     judged = judge(problem, motion, interpolation=interpolation, tolerance=tolerance, conditions=asked)
-    if not bound:
+    if isinstance(bound, FreeFormBound):
+        proved = bound
+    elif bound:
+        # the time of a motion is of use to the proof only if the motion is feasible
+        upper = judged.seconds if judged.feasible else None
+        free = asked.without_total(problem)
+        proved = free_form_bound(problem, conditions=free, upper=upper, time_limit=time_limit)
+    else:
         return Assessment(problem, judged, None, ())
-    # the time of a motion is of use to the proof only if the motion is feasible
-    upper = judged.seconds if judged.feasible else None
-    free = asked.without_total(problem)
-    proved = free_form_bound(problem, conditions=free, upper=upper, time_limit=time_limit)
     holds: list[Hold] = []
     if proved.savings is not None:
         # raising a limit of order k by 1 % saves 1 / k % of the time that it holds

@@ -15,7 +15,9 @@ function derivative(coefficients, order, t) {
   return value;
 }
 
+// times and values of a curve; a motion of too many pieces comes as the extremes of short intervals
 function sampled(motion, joint, order) {
+  if (motion.curves) return motion.curves[joint][order];
   const total = motion.durations.reduce((sum, one) => sum + one, 0);
   const t = [], x = [];
   let start = 0;
