@@ -148,7 +148,7 @@ def assess(
     interpolation: str = "auto",
     tolerance: float = WAYPOINT_TOLERANCE,
     conditions: Conditions | None = None,
-    bound: FreeFormBound | bool = True,
+    bound: bool = True,
     time_limit: float = 20.0,
 ) -> Assessment:
     """Judge a motion from elsewhere, and set it beside the bound that no motion beats.
@@ -166,8 +166,8 @@ def assess(
     conditions : Conditions, optional
         What was asked of the motion beyond the problem. The bound is that of the motions that keep it, and
         says how fast they could be where a total time is asked for.
-    bound : bool or FreeFormBound, default True
-        Whether to prove a lower bound, or one that is proved already, of the same problem and conditions.
+    bound : bool, default True
+        Whether to prove a lower bound.
     time_limit : float, default 20 [s]
         The search for a better bound ends after this time.
 
@@ -190,18 +190,33 @@ def assess(
     """
     asked = conditions or Conditions()
     judged = judge(problem, motion, interpolation=interpolation, tolerance=tolerance, conditions=asked)
-    if isinstance(bound, FreeFormBound):
-        proved = bound
-    elif bound:
-        # the time of a motion is of use to the proof only if the motion is feasible
-        upper = judged.seconds if judged.feasible else None
-        free = asked.without_total(problem)
-        proved = free_form_bound(problem, conditions=free, upper=upper, time_limit=time_limit)
-    else:
-        return Assessment(problem, judged, None, ())
+    if not bound:
+        return beside(problem, judged, None)
+    # the time of a motion is of use to the proof only if the motion is feasible
+    upper = judged.seconds if judged.feasible else None
+    free = asked.without_total(problem)
+    proved = free_form_bound(problem, conditions=free, upper=upper, time_limit=time_limit)
+    return beside(problem, judged, proved)
+
+
+def beside(problem: Problem, judged: Judgement, bound: FreeFormBound | None) -> Assessment:
+    """Set a judged motion beside a bound that is proved already.
+
+    Parameters
+    ----------
+    problem : Problem
+    judged : Judgement
+        Of a motion of this problem.
+    bound : FreeFormBound or None
+        Of all motions under the same conditions, their total time aside.
+
+    Returns
+    -------
+    Assessment
+    """
     holds: list[Hold] = []
-    if proved.savings is not None:
+    if bound is not None and bound.savings is not None:
         # raising a limit of order k by 1 % saves 1 / k % of the time that it holds
-        held = proved.savings * np.arange(1.0, 4.0)[:, None, None]
-        holds = largest_holds(held, proved.seconds)
-    return Assessment(problem, judged, proved, tuple(holds))
+        held = bound.savings * np.arange(1.0, 4.0)[:, None, None]
+        holds = largest_holds(held, bound.seconds)
+    return Assessment(problem, judged, bound, tuple(holds))

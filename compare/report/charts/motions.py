@@ -102,7 +102,10 @@ def _curves_or_pieces(trajectory: Trajectory, scales: Array) -> dict[str, Any]:
         return {
             "curves": [
                 [
-                    [[float(f"{t:.5g}") for t in times[:, j]], [_short(x * scales[j]) for x in values[:, j]]]
+                    [
+                        [float(f"{t:.5g}") for t in times[:, j]],
+                        [_short(x * scales[j]) for x in values[:, j]],
+                    ]
                     for times, values in curves
                 ]
                 for j in range(trajectory.dof)
