@@ -48,8 +48,7 @@ def opening(found: Assessment) -> list[str]:
     lines = [
         f"{judged.seconds:.6g} s; {how} between {len(judged.motion.durations) + 1} points, "
         "as a controller joins them",
-        f"{count - len(judged.missed)} of {count} waypoints passed within {judged.tolerance:g} rad "
-        "(--tolerance)",
+        f"{count - len(judged.missed)} of {count} waypoints passed within {judged.tolerance:g} rad",
     ]
     if judged.missed_total is not None:
         lines.append(f"it takes {judged.seconds:.9g} s; asked for were {judged.missed_total:.9g} s")

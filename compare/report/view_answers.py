@@ -12,6 +12,8 @@ from formulations.assessment import Assessment
 
 _REACHED = 1e-5  # gap at which a motion cannot be told from the fastest in the digits shown
 
+_S = "\N{NO-BREAK SPACE}s"
+
 
 def headline(viewed: Viewed) -> str:
     """Return the one sentence that stands above everything.
@@ -39,13 +41,14 @@ def headline(viewed: Viewed) -> str:
     if seconds is None:
         return f"No motion was found for {whose}"
     if viewed.conditions.total is not None:
-        return f"The smoothest motion of {whose} takes {seconds:.4f} s"
+        return f"The smoothest motion of {whose} takes {seconds:.4f}{_S}"
     if not bound:
-        return f"The fastest motion found for {whose} takes {seconds:.4f} s"
+        return f"The fastest motion found for {whose} takes {seconds:.4f}{_S}"
     if seconds <= bound * (1.0 + _REACHED):
-        return f"The fastest motion of {whose} takes {seconds:.4f} s, and none can be faster"
-    found = f"The fastest motion found for {whose} takes {seconds:.4f} s"
-    return f"{found}; no motion takes less than {bound:.4f} s"
+        return f"The fastest motion of {whose} takes {seconds:.4f}{_S}, and none can be faster"
+    such = "such " if viewed.is_conditional else ""
+    found = f"The fastest motion found for {whose} takes {seconds:.4f}{_S}"
+    return f"{found}; no {such}motion takes less than {bound:.4f}{_S}"
 
 
 def answers_of(viewed: Viewed) -> list[Answer]:
@@ -103,10 +106,13 @@ def _of_motion(given: Assessment) -> list[Answer]:
         whose = given.problem.joint_name(worst.joint)
         text = f"Worst: {worst.factor:.6g} times the {worst.quantity} limit of {whose}"
         made.append(Answer(text, _sentence(str(worst)), "wrong"))
-    for lines, anchor in ((mending(given), "motion"), (distance(given), "ladder")):
+    for lines, else_, anchor in (
+        (mending(given), "A stretch multiplies every duration by one factor.", "motion"),
+        (distance(given), "", "ladder"),
+    ):
         if lines:
             first, *others = map(_sentence, lines)
-            made.append(Answer(first.removesuffix("."), " ".join(others), anchor))
+            made.append(Answer(first.removesuffix("."), " ".join(others) or else_, anchor))
     return made
 
 
@@ -121,19 +127,20 @@ def _of_problem(viewed: Viewed) -> list[Answer]:
         detail = "It passed the check of limits, waypoints, rest and jumps."
         if bound:
             detail += f" Its gap to the proved bound: {percent(max(seconds / bound - 1.0, 0.0))}."
-        text = f"The {best} motion known{under} takes {seconds:.6f} s"
+        text = f"The {best} motion known{under} takes {seconds:.6f}{_S}"
         made.append(Answer(text, detail, "motion"))
     if bound and viewed.given is None:  # else the motion's own answer has said it
-        detail = "This is proved for every motion through the waypoints that keeps the limits."
-        made.append(Answer(f"No motion{under} takes less than {bound:.6f} s", detail, "ladder"))
+        what = "the limits and the conditions" if conditional else "the limits"
+        detail = f"This is proved for every motion through the waypoints that keeps {what}."
+        made.append(Answer(f"No motion{under} takes less than {bound:.6f}{_S}", detail, "ladder"))
     spline = record["ladder"]["family"]["seconds"]
     if spline is not None:
         proved = bound_of(record)[1] is BoundProof.certified
         detail = "No durations give a faster one: proved." if proved else "Not proved to be the best."
         if seconds and not conditional:
             detail += f" It takes {percent(spline / seconds - 1.0)} longer than the fastest motion."
-        made.append(Answer(f"The best {family} spline takes {spline:.6f} s", detail, "ladder"))
-    held = record.get("held_up_by", [])
+        made.append(Answer(f"The best {family} spline takes {spline:.6f}{_S}", detail, "ladder"))
+    held = record["held_up_by"]
     if held and not conditional:
         made.append(Answer("What limits the fastest motion most", _sentence(held[0]), "numbers"))
     return made

@@ -151,7 +151,7 @@ def _more_lines(viewed: Viewed) -> Sequence[dict[str, Any]]:
         if found.feasible:
             lines.append((viewed.file, found.seconds, "given"))
         else:
-            lines.append((f"{viewed.file}: {what_is_wrong(given)}", found.seconds, "faulty"))
+            lines.append((viewed.file, found.seconds, "faulty"))
             if np.isfinite(found.stretch):
                 name = f"{viewed.file}, slowed down by {found.stretch:.4g}"
                 lines.append((name, found.stretch * found.seconds, "given"))

@@ -90,6 +90,5 @@ class Viewed:
             key: record["ladder"].get(key, cast(Any, {**empty, "kind": rung.kind.value}))
             for key, rung in RUNGS.items()
         }
-        if self.diagnosis is not None:
-            record["held_up_by"] = self.diagnosis.lines()
+        record["held_up_by"] = [] if self.diagnosis is None else self.diagnosis.lines()
         return record

@@ -99,10 +99,13 @@ def as_text(path: str, found: Assessment) -> str:
     """
     broken = "keeps" if found.judgement.feasible else "BREAKS"
     held = holding(found)
+    joined, passed, *others = opening(found)
     return "\n".join(
         [
             f"{path}: {broken} what {found.problem.name} asks for",
-            *opening(found),
+            joined,
+            f"{passed} (--tolerance)",
+            *others,
             *map(_set, fault_tables(found)),
             "",
             *mending(found),

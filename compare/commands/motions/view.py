@@ -32,7 +32,7 @@ from formulations.deadlines import Deadline
 from formulations.motion.files.motion_file import read_points
 from formulations.motion.judgement import WAYPOINT_TOLERANCE, judge
 
-_LONGEST = 80  # characters of a name of a page
+_LONGEST, _SHOWN = 80, 40  # characters of the name of a page, and of that of a motion on it
 
 
 def view(
@@ -129,7 +129,7 @@ def view(
             conditions,
             planned,
             given,
-            Path(motion or "").name,
+            _short(Path(motion or "").name),
             arm,
             tuple(remarks),
         )
@@ -150,6 +150,11 @@ def _code(problem: Problem, given: Assessment | None, remarks: list[str]) -> int
     for remark in remarks:
         print(f"error: {problem.name}: {remark}", file=sys.stderr)
     return BAD_INPUT if remarks else DONE
+
+
+def _short(name: str) -> str:
+    """A file's name as it fits beside a chart."""
+    return name if len(name) <= _SHOWN else f"{name[: _SHOWN // 2]}…{name[-_SHOWN // 2 :]}"
 
 
 def page_name(problem: Problem) -> str:

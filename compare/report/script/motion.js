@@ -66,7 +66,7 @@ charts.motion = (figure, found) => {
       if (order === 0) {
         traces.push({type: "scatter", mode: "markers", x: motion.passages, y: waypoints, yaxis: axis, legendgroup: motion.kind,
                      showlegend: false, text: waypoints.map((_, k) => String(k + 1)),
-                     hovertemplate: "waypoint %{text} at %{x:.4f} s<extra></extra>", marker: {color: colour(tint), size: 7}});
+                     hovertemplate: "waypoint %{text} at %{x:.4f} s<extra></extra>", marker: {color: colour(tint), size: waypoints.length > 40 ? 3 : 7}});
       }
     }
     for (const limit of [low, high]) {
@@ -85,6 +85,6 @@ charts.motion = (figure, found) => {
     height: 640, showlegend: true, shapes, hovermode: "x", ...axes,
     margin: {l: 70, r: 10, t: 10, b: 40},
     legend: {x: 0, y: 1.02, yanchor: "bottom"},
-    xaxis: {title: {text: `time [s]; ${text(name)}; dashed: limits; thick: over a limit`}, anchor: `y${found.quantities.length}`},
+    xaxis: {title: {text: fold(`time [s]; ${name}; dashed: limits; thick: over a limit`, narrow(figure) ? 34 : 120)}, anchor: `y${found.quantities.length}`},
   }));
 };
