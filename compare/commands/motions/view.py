@@ -21,12 +21,12 @@ from compare.commands.motions.problem_options import (
     problem_of,
 )
 from compare.commands.options import Gap, Rungs, TimeLimit, Without, positive, writable
-from compare.files import write_text
+from compare.files import output_folder, write_text
 from compare.interrupts import ctrl_c_stops
 from compare.report.view_page import view_page
 from compare.report.viewed import Viewed
 from compare.screen import stages
-from formulations import InputError, NoFeasibleMotion, Problem, plan
+from formulations import NoFeasibleMotion, Problem, plan
 from formulations.assessment import Assessment, beside
 from formulations.deadlines import Deadline
 from formulations.motion.files.motion_file import read_points
@@ -80,8 +80,6 @@ def view(
     """
     if file is not None and motion is None and own is not None and own != OwnRobot():
         file, motion = None, file
-    if out == "-":
-        raise InputError("--out: a page goes to a file, not to -")
     problem = problem_of(file, own)
     conditions = conditions_of(asked, problem)
     arm = known_arm(file, own)
@@ -94,6 +92,8 @@ def view(
             tolerance=tolerance,
             conditions=conditions,
         )
+    path = Path(out or page_name(problem))
+    output_folder(path.parent)  # says so at once if it cannot be written to
     chosen = chosen_rungs(problem, rungs, without)
     deadline = Deadline(time_limit)
     planned, remarks = None, []
@@ -121,7 +121,6 @@ def view(
         remarks.append(f"No motion was found: {why}.")
     if interrupted:
         remarks.append("This was interrupted: the page shows what was known until then.")
-    path = Path(out or page_name(problem))
     page = view_page(
         Viewed(
             answer,

@@ -81,6 +81,11 @@ def viewed(folder: Path, *given: str, code: int = 0) -> Page:
     return Page(out)
 
 
+def number(pattern: str, text: str) -> float:
+    (found,) = re.findall(pattern, text)
+    return float(found)
+
+
 def checked(folder: Path, *given: str) -> dict[str, Any]:
     out = folder / "verdict.json"
     main(["check", *given, "--json", str(out)])
@@ -127,7 +132,9 @@ def test_a_motion_that_is_too_fast_is_said_to_be_so_as_check_says_it(
         assert f"{one['joint']} {one['time']:.4f} s {value} " in page.text
     long = answer["stretch"] * answer["seconds"]
     assert f"Stretched by {answer['stretch']:.6g}, to {long:.6g} s, it would keep" in page.text
-    assert f"takes less than {answer['bound']:.5g}" in page.text
+    assert number(r"takes less than ([\d.]+) s \(proved\)", page.text) == pytest.approx(
+        answer["bound"], rel=1e-5
+    )
     assert f"{100.0 * answer['gap_when_mended']:.3g} % more" in page.text
     kinds = {line["kind"]: line["seconds"] for line in page.charts["ladder"]["lines"]}
     assert kinds["faulty"] == pytest.approx(answer["seconds"])
@@ -196,9 +203,8 @@ def test_a_page_is_named_after_its_problem_and_stays_in_the_folder(name: str, pa
         (["sr4c", "--out", "/nowhere/x.html"], "/nowhere is no folder"),
         (
             ["sr4c", "--rungs", "displacement", "--out", "/proc/x.html"],
-            "/proc/x.html: cannot be written",
+            "/proc: cannot be written",
         ),
-        (["sr4c", "--out", "-"], "--out: a page goes to a file"),
         (["sr4c", "nowhere.csv"], "nowhere.csv: no such file"),
         (["sr4c", "--stop", "9"], "stops: waypoint 9"),
     ],
@@ -208,7 +214,7 @@ def test_bad_input_is_one_line(given: list[str], said: str, capsys: pytest.Captu
     err = capsys.readouterr().err
     (line,) = [one for one in err.splitlines() if one.startswith("error: ")]
     assert said in line
-    assert err.splitlines()[-1] == line
+    assert err == f"{line}\n"  # before any work
 
 
 def test_the_browser_is_opened_only_if_asked_for(
