@@ -33,22 +33,25 @@ def headline(viewed: Viewed) -> str:
         kept = f"{viewed.file} keeps everything that {name} asks for"
         if given.gap is None or given.conditions.total is not None:
             return kept
-        if given.gap < _REACHED:
-            return f"{kept}, and no motion is faster"
-        return f"{kept}; no motion is more than {percent(given.gap)} faster"
+        return f"{kept}, and takes at most {percent(given.gap)} longer than the fastest motion"
     whose = f"{name} under the conditions" if viewed.is_conditional else name
     seconds, bound = viewed.seconds, viewed.bound
+    proved = (
+        f"no {'such ' if viewed.is_conditional else ''}motion takes less than {bound or 0.0:.4f}{_S}"
+    )
     if seconds is None:
-        return f"No motion was found for {whose}"
+        found = f"No motion was {'found' if viewed.was_sought else 'asked'} for {whose}"
+        return f"{found}; {proved}" if bound else found
     if viewed.conditions.total is not None:
         return f"The smoothest motion of {whose} takes {seconds:.4f}{_S}"
     if not bound:
         return f"The fastest motion found for {whose} takes {seconds:.4f}{_S}"
-    if seconds <= bound * (1.0 + _REACHED):
-        return f"The fastest motion of {whose} takes {seconds:.4f}{_S}, and none can be faster"
-    such = "such " if viewed.is_conditional else ""
-    found = f"The fastest motion found for {whose} takes {seconds:.4f}{_S}"
-    return f"{found}; no {such}motion takes less than {bound:.4f}{_S}"
+    gap = max(seconds / bound - 1.0, 0.0)
+    if gap < _REACHED:
+        return f"The fastest motion of {whose} takes {seconds:.4f}{_S}, proved to within {percent(gap)}"
+    return (
+        f"The fastest motion found for {whose} takes {seconds:.4f}{_S}; {proved} (gap {percent(gap)})"
+    )
 
 
 def answers_of(viewed: Viewed) -> list[Answer]:
@@ -125,19 +128,22 @@ def _of_problem(viewed: Viewed) -> list[Answer]:
     if seconds is not None:
         best = "fastest" if viewed.conditions.total is None else "smoothest"
         detail = "It passed the check of limits, waypoints, rest and jumps."
-        if bound:
+        if bound and viewed.conditions.total is None:
             detail += f" Its gap to the proved bound: {percent(max(seconds / bound - 1.0, 0.0))}."
         text = f"The {best} motion known{under} takes {seconds:.6f}{_S}"
         made.append(Answer(text, detail, "motion"))
     if bound and viewed.given is None:  # else the motion's own answer has said it
         what = "the limits and the conditions" if conditional else "the limits"
         detail = f"This is proved for every motion through the waypoints that keeps {what}."
-        made.append(Answer(f"No motion{under} takes less than {bound:.6f}{_S}", detail, "ladder"))
+        text = f"No motion{under} takes less than {bound:.6f}{_S}"
+        if viewed.conditions.total is not None:
+            text = f"Without a total time, no such motion takes less than {bound:.6f}{_S}"
+        made.append(Answer(text, detail, "ladder"))
     spline = record["ladder"]["family"]["seconds"]
     if spline is not None:
         proved = bound_of(record)[1] is BoundProof.certified
         detail = "No durations give a faster one: proved." if proved else "Not proved to be the best."
-        if seconds and not conditional:
+        if seconds and not conditional and viewed.best != "family":
             detail += f" It takes {percent(spline / seconds - 1.0)} longer than the fastest motion."
         made.append(Answer(f"The best {family} spline takes {spline:.6f}{_S}", detail, "ladder"))
     held = record["held_up_by"]

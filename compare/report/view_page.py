@@ -135,7 +135,7 @@ def _motions(viewed: Viewed) -> list[ShownMotion]:
     if spline is not None:
         title = f"best {problem.family} spline, {judged(problem, spline)}"
         found.append(ShownMotion("family", title, spline))
-    if fastest is not None:
+    if fastest is not None and fastest is not spline:
         said = f"{fastest.seconds:.4f} s, keeps limits and conditions"
         title = "fastest motion, " + (said if viewed.is_conditional else judged(problem, fastest))
         found.append(ShownMotion("fastest", title, fastest))

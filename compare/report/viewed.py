@@ -16,6 +16,8 @@ if TYPE_CHECKING:
     from formulations.arms import Arm
     from formulations.robot import Robot
 
+_EVERY_MOTION = ("displacement", "ruckig_end_to_end", "free_form_lower")  # bounds on every motion
+
 
 @dataclass(frozen=True)
 class Viewed:
@@ -61,25 +63,37 @@ class Viewed:
         return not self.conditions.none
 
     @property
+    def best(self) -> str | None:
+        """Key of the rung with the fastest verified motion of the problem; None where there is none."""
+        found = {rung.seconds: key for key, rung in self.ladder.rungs.items() if rung.kind == "upper"}
+        return min(((t, key) for t, key in found.items() if t is not None), default=(0.0, None))[1]
+
+    @property
     def seconds(self) -> float | None:
         """Time of the fastest motion known that keeps what is asked for [s]."""
         if self.is_conditional:
             return None if self.planned is None else self.planned.seconds
-        return self.record["ladder"]["free_form"]["seconds"]
+        return None if self.best is None else self.ladder.seconds(self.best)
 
     @property
     def bound(self) -> float | None:
-        """Time that no such motion beats, proved [s]."""
+        """Time that no such motion beats, proved; a total time that is asked for is left aside [s]."""
         if self.is_conditional:
             return None if self.planned is None else self.planned.bound
-        return self.record["ladder"]["free_form_lower"]["seconds"]
+        found = [self.record["ladder"][key]["seconds"] for key in _EVERY_MOTION]
+        return max((t for t in found if t is not None), default=None)
 
     @property
     def fastest(self) -> Trajectory | None:
         """The fastest motion known that keeps what is asked for; None where there is none, or nothing moves."""
         if self.is_conditional:
             return None if self.planned is None else self.planned.found.trajectory
-        return self.ladder.trajectories.get("free_form")
+        return None if self.best is None else self.ladder.trajectories.get(self.best)
+
+    @property
+    def was_sought(self) -> bool:
+        """Whether a motion was looked for."""
+        return self.is_conditional or any(rung.kind == "upper" for rung in self.ladder.rungs.values())
 
     @cached_property
     def record(self) -> LadderRecord:

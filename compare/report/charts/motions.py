@@ -167,8 +167,8 @@ def arm_chart(arm: Arm | Robot, motions: Sequence[ShownMotion]) -> dict[str, Any
                 "frames": np.round(points[:, keep], 3).tolist(),
             }
         )
-    first = motions[0].trajectory
-    tool = skeleton(arm, first.at(first.passage_times))[:, -1]
+    best = motions[-1].trajectory  # the first one may miss waypoints
+    tool = skeleton(arm, best.at(best.passage_times))[:, -1]
     title = getattr(arm, "title", arm.name)
     return {
         "motions": shown,

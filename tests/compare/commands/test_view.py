@@ -82,7 +82,7 @@ def viewed(folder: Path, *given: str, code: int = 0) -> Page:
 
 
 def number(pattern: str, text: str) -> float:
-    (found,) = re.findall(pattern, text)
+    (found,) = set(re.findall(pattern, text))  # in the title too
     return float(found)
 
 
@@ -100,7 +100,9 @@ def test_the_page_of_a_problem_says_what_solve_says(tmp_path: Path) -> None:
     ladder = json.loads(answer.read_text("utf-8"))["ladder"]
     page = viewed(tmp_path, "sr4c", "--rungs", ",".join(rungs))
     seconds = {key: rung["seconds"] for key, rung in ladder.items()}
-    assert f"The fastest motion of sr4c takes {seconds['free_form']:.4f} s, and none can" in page.text
+    assert (
+        f"The fastest motion of sr4c takes {seconds['free_form']:.4f} s, proved to within" in page.text
+    )
     assert f"No motion takes less than {seconds['free_form_lower']:.6f} s" in page.text
     assert f"The best 3-5-3 spline takes {seconds['family']:.6f} s" in page.text
     assert "toppra_cubic reference left out" in page.text  # what was not climbed says so
@@ -150,8 +152,18 @@ def test_a_good_motion_keeps_everything_and_its_gap_is_that_of_check(
     answer = checked(tmp_path, *given)
     page = viewed(tmp_path, *given, "--rungs", QUICK)
     assert "good.csv keeps everything that sr4c asks for" in page.text
+    gap = number(r"takes at most ([\d.]+) % longer than the fastest", page.text)
+    assert gap == pytest.approx(100.0 * answer["gap"], rel=5e-2)  # two digits
     assert f"this one: {100.0 * answer['gap']:.3g} % more" in page.text
     assert "What is wrong" not in page.text
+
+
+def test_a_page_without_a_search_says_that_none_was_asked_for(tmp_path: Path) -> None:
+    page = viewed(tmp_path, "sr4c", "--rungs", "displacement")
+    problem = load("sr4c")
+    least = (np.abs(np.diff(problem.waypoints, axis=0)) / problem.limits.velocity).max(axis=1).sum()
+    assert f"No motion was asked for sr4c; no motion takes less than {least:.4f} s" in page.text
+    assert page.kinds == ["ladder"]
 
 
 def test_missed_waypoints_stand_in_the_table(motions: Path, tmp_path: Path) -> None:
@@ -250,7 +262,7 @@ def test_an_interrupt_leaves_the_page_of_what_is_known(
     monkeypatch.setattr(view, "ctrl_c_stops", lambda: nullcontext(lambda: True))
     page = viewed(tmp_path, "sr4c", code=130)
     assert "This was interrupted" in page.text
-    assert "No motion was found" in page.text
+    assert "No motion was found for sr4c" in page.text
 
 
 def test_a_motion_of_many_pieces_is_drawn_small_with_its_exact_extremes() -> None:
