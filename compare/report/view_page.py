@@ -38,6 +38,8 @@ def view_page(viewed: Viewed) -> str:
     motions = _motions(viewed)
     if motions:
         charts["motion"] = motions_chart(problem, motions)
+        if given is not None and given.judgement.violations:  # the joint to be shown first
+            charts["motion"]["first"] = given.judgement.violations[0].joint
         if viewed.arm is not None and viewed.arm.dof == problem.dof:
             charts["arm"] = arm_chart(viewed.arm, motions)
     context = {

@@ -35,7 +35,7 @@ function sampled(motion, joint, order) {
 
 charts.motion = (figure, found) => {
   const moving = found.joints.map((_, j) => j).filter((j) => found.joints[j].moves);
-  const joint = Number(figure.dataset.joint ?? moving[0] ?? 0);
+  const joint = Number(figure.dataset.joint ?? found.first ?? moving[0] ?? 0);
   const again = (value) => {
     figure.dataset.joint = value;
     draw(figure);

@@ -143,6 +143,7 @@ def test_a_motion_that_is_too_fast_is_said_to_be_so_as_check_says_it(
     assert kinds["given"] == pytest.approx(long)
     assert "fast.csv" in page.charts["ladder"]["alt"]
     assert page.charts["motion"]["motions"][0]["kind"] == "given"
+    assert page.charts["motion"]["first"] == worst["joint"] - 1
 
 
 def test_a_good_motion_keeps_everything_and_its_gap_is_that_of_check(
