@@ -283,3 +283,14 @@ def test_a_motion_of_many_pieces_is_drawn_small_with_its_exact_extremes() -> Non
         assert max(values) == pytest.approx(dense.max(), rel=1e-4)
         assert min(values) == pytest.approx(dense.min(), rel=1e-4)
         assert np.all(np.diff(times) >= 0.0)
+
+
+def test_the_page_of_a_thousand_waypoints_stays_small(tmp_path: Path) -> None:
+    rng = np.random.default_rng(1)
+    rows = np.cumsum(rng.uniform(-0.2, 0.2, (1000, 6)), axis=0).round(4).tolist()
+    limits = "[limits]\nvelocity = 3\nacceleration = 8\njerk = 60\n"
+    (tmp_path / "long.toml").write_text(f"waypoints = {rows}\n{limits}")
+    page = viewed(tmp_path, str(tmp_path / "long.toml"), "--rungs", "ruckig_stop_and_go")
+    assert (tmp_path / "page.html").stat().st_size < 4e6
+    assert "and 500 more" in page.text
+    assert len(page.charts["motion"]["motions"][0]["curves"]) == 6
