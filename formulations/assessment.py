@@ -191,14 +191,32 @@ def assess(
     asked = conditions or Conditions()
     judged = judge(problem, motion, interpolation=interpolation, tolerance=tolerance, conditions=asked)
     if not bound:
-        return Assessment(problem, judged, None, ())
+        return beside(problem, judged, None)
     # the time of a motion is of use to the proof only if the motion is feasible
     upper = judged.seconds if judged.feasible else None
     free = asked.without_total(problem)
     proved = free_form_bound(problem, conditions=free, upper=upper, time_limit=time_limit)
+    return beside(problem, judged, proved)
+
+
+def beside(problem: Problem, judged: Judgement, bound: FreeFormBound | None) -> Assessment:
+    """Set a judged motion beside a bound that is proved already.
+
+    Parameters
+    ----------
+    problem : Problem
+    judged : Judgement
+        Of a motion of this problem.
+    bound : FreeFormBound or None
+        Of all motions under the same conditions, their total time aside.
+
+    Returns
+    -------
+    Assessment
+    """
     holds: list[Hold] = []
-    if proved.savings is not None:
+    if bound is not None and bound.savings is not None:
         # raising a limit of order k by 1 % saves 1 / k % of the time that it holds
-        held = proved.savings * np.arange(1.0, 4.0)[:, None, None]
-        holds = largest_holds(held, proved.seconds)
-    return Assessment(problem, judged, proved, tuple(holds))
+        held = bound.savings * np.arange(1.0, 4.0)[:, None, None]
+        holds = largest_holds(held, bound.seconds)
+    return Assessment(problem, judged, bound, tuple(holds))

@@ -52,6 +52,11 @@ _ALL = (
         "timebound check sr4c motion.csv --interpolation cubic --json verdict.json",
     ),
     Command(
+        "view", "compare.commands.motions.view:view", MOTIONS,
+        "Open a page about a problem or a motion: limits, bounds, curves, the arm.",
+        "timebound view sr4c motion.csv --out sr4c.html",
+    ),
+    Command(
         "retime", "compare.commands.motions.retime:retime_motion", MOTIONS,
         "Time a path or a motion anew: TOPP-RA, COPP, and freely within a tolerance.",
         "timebound retime path.csv --limits ur5 --tolerance 0.005 --export faster.csv",

@@ -3,22 +3,17 @@
 from __future__ import annotations
 
 from pathlib import Path
-from typing import TYPE_CHECKING, Annotated
+from typing import Annotated
 
 from cyclopts import Parameter
 
 from compare.commands import DONE
-from compare.commands.motions.problem_options import FileOrRobot, OwnRobotOptions, problem_of
+from compare.commands.motions.problem_options import FileOrRobot, OwnRobotOptions, known_arm, problem_of
 from compare.commands.options import writable
 from compare.files import write_text
 from compare.report.motion_picture import arm_of, draw_motion_picture
 from compare.screen import stages
 from formulations import CASES, FAMILIES, InputError, family_optimum
-from formulations.problem.toml_file.problem_file import arm_in
-
-if TYPE_CHECKING:
-    from formulations.arms import Arm
-    from formulations.robot import Robot
 
 
 def motion_picture(
@@ -39,11 +34,7 @@ def motion_picture(
         The file to be written; named after the problem if left out.
     """
     problem = problem_of(file, own)
-    arm: Arm | Robot | None
-    if file is None:
-        arm = own.files.read() if own is not None and own.robot is not None else None
-    else:
-        arm = arm_of(file) if file in CASES else arm_in(file)
+    arm = known_arm(file, own)
     if arm is None:
         known = ", ".join(case for case in CASES if arm_of(case) is not None)
         raise InputError(

@@ -15,8 +15,10 @@ from cyclopts import Group, Parameter
 
 if TYPE_CHECKING:
     from formulations import Limits, Problem
+    from formulations.arms import Arm
     from formulations.motion.files.motion_points import MotionPoints
     from formulations.problem.toml_file.robot_files import RobotFiles
+    from formulations.robot import Robot
 
 _ROBOT = Group("In place of FILE", sort_key=10)
 
@@ -151,6 +153,31 @@ def problem_of(file: str | None, own: OwnRobot | None) -> Problem:
     for hint in problem.hints:
         print(f"hint: {hint}", file=sys.stderr)
     return problem
+
+
+def known_arm(file: str | None, own: OwnRobot | None) -> Arm | Robot | None:
+    """Return the arm that a command's problem is about, to draw it.
+
+    Parameters
+    ----------
+    file : str or None
+        A problem file, or the name of a shipped case.
+    own : OwnRobot or None
+        The options that stand in its place.
+
+    Returns
+    -------
+    Arm or Robot or None
+        That of the case, of the key ``robot`` or ``arm`` in the file, or of ``--robot``; None where no arm is
+        known.
+    """
+    from compare.report.motion_picture import arm_of
+    from formulations import CASES
+    from formulations.problem.toml_file.problem_file import arm_in
+
+    if file is None:
+        return own.files.read() if own is not None and own.robot is not None else None
+    return arm_of(file) if file in CASES else arm_in(file)
 
 
 def limits_for(points: MotionPoints, own: OwnRobot | None) -> tuple[MotionPoints, Limits]:

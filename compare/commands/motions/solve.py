@@ -8,6 +8,7 @@ from typing import Annotated, Any
 from cyclopts import Parameter
 
 from compare.commands import BAD_INPUT, DONE, FAILED, INTERRUPTED
+from compare.commands.motions.climbing import chosen_rungs, climb, unsolved
 from compare.commands.motions.problem_options import FileOrRobot, OwnRobotOptions, problem_of
 from compare.commands.options import (
     Export,
@@ -23,14 +24,10 @@ from compare.commands.options import (
 )
 from compare.interrupts import ctrl_c_stops
 from compare.screen import show, stages, table
-from formulations import RUNGS, InputError, Ladder, Problem, ladder
-from formulations.climb import RungResult
+from formulations import RUNGS, InputError, Ladder, Problem
 from formulations.deadlines import Deadline
-from formulations.diagnosis import diagnose
 from formulations.optima.at_rate.export import check_export, export_motion
 from formulations.proofs.certificate import write_certificate
-from formulations.rungs import LARGE, usual_rungs, with_needs
-from formulations.rungs import without as leave_out
 
 _LINES = 8  # of what limits the fastest motion
 _PROOF = {"lower": "proved", "upper": "verified", "reference": "discretised"}
@@ -68,35 +65,20 @@ def solve(
     problem = problem_of(file, own)
     if export is not None:
         check_export(export, problem, rate)
-    chosen = usual_rungs(problem) if rungs is None else with_needs(rungs)
-    chosen = leave_out(chosen, without or ())
-    if not chosen:
-        raise InputError("--without: no rung is left")
-    if rungs is None and problem.n_segments > LARGE:
-        print(
-            f"{problem.name}: {problem.n_segments} segments: the rungs of the family are left out, as they "
-            f"take long beyond {LARGE}; --rungs family,family_lower asks for them",
-            file=sys.stderr,
-        )
+    chosen = chosen_rungs(problem, rungs, without)
     deadline = Deadline(time_limit)
     with ctrl_c_stops() as stop, stages(problem.name) as stage:
         deadline.stop = stop
-        answer = ladder(
+        answer, held = climb(
             problem,
+            chosen,
+            deadline,
+            stage,
             seed=seed,
             certificate=bool(certificate or motion_certificate),
             gap=gap,
-            rungs=chosen,
             starts=starts,
-            time_limit=time_limit,
-            stop=stop,
-            progress=stage,
-            finished=lambda result: print(_line(problem.name, result), file=sys.stderr, flush=True),
         )
-        held = None
-        if answer.free_form is not None and not deadline.over:
-            stage("what limits the fastest motion")
-            held = diagnose(problem, answer.free_form, deadline=deadline)
         interrupted = stop()
     text = [
         f"{problem.name}: {problem.title}",
@@ -108,7 +90,7 @@ def solve(
     diagnosis = None if held is None else held.to_json()
     show("\n".join(text), {**answer.to_json(), "diagnosis": diagnosis}, json)
     say = sys.stderr if json == "-" else sys.stdout
-    if reason := _unsolved(answer):
+    if reason := unsolved(answer):
         print(f"error: {problem.name}: no motion was found: {reason}", file=sys.stderr)
         return BAD_INPUT
     if export is not None:
@@ -163,20 +145,6 @@ def as_text(answer: Ladder) -> str:
     notes = [f"  {rung.key}: {rung.note}" for rung in rungs if rung.note]
     header = ["rung", "time", "status", "took", "what it is"]
     return "\n".join([table(header, rows, right=(1, 3)), "", "notes", *notes])
-
-
-def _line(name: str, rung: RungResult) -> str:
-    """One rung as soon as it is known."""
-    found = str(rung.status) if rung.seconds is None else f"{rung.seconds:.9g} s"
-    return f"{name}: {rung.key}: {found}, took {rung.runtime:.2f} s"
-
-
-def _unsolved(answer: Ladder) -> str:
-    """Why there is no motion at all; empty if there is one."""
-    upper = [rung for rung in answer.rungs.values() if rung.kind == "upper"]
-    if not upper or any(rung.status == "ok" for rung in upper):
-        return ""
-    return next((rung.note for rung in upper if rung.key == "free_form" and rung.note), upper[0].note)
 
 
 def _export(path: str, problem: Problem, answer: Ladder, rate: float | None) -> str:

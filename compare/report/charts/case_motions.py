@@ -40,12 +40,12 @@ def motions_of_case(
     durations = ladder["durations"].get("family")
     if durations is not None:
         motion = FAMILIES[problem.family].trajectory(problem, np.array(durations))
-        title = f"best {problem.family} spline, {_judged(problem, motion)}"
+        title = f"best {problem.family} spline, {judged(problem, motion)}"
         found.append(ShownMotion("family", title, motion))
     pieces = ladder.get("fastest")
     if pieces is not None:
         motion = from_pieces(pieces)
-        found.append(ShownMotion("fastest", f"fastest motion, {_judged(problem, motion)}", motion))
+        found.append(ShownMotion("fastest", f"fastest motion, {judged(problem, motion)}", motion))
     return found
 
 
@@ -68,7 +68,7 @@ def published_motion(problem: Problem) -> ShownMotion | None:
         return None
     printed = min((PrintedMotion.of(paper, row) for row in wholes), key=lambda one: one.total)
     motion = FAMILIES[problem.family].trajectory(problem, printed.times)
-    words, slack = _judged(problem, motion), SLACK
+    words, slack = judged(problem, motion), SLACK
     if printed.kept in (Kept.YES, Kept.WITHIN_ROUNDING):
         words = f"{motion.seconds:.4f} s, keeps its limits within the rounding of what is printed"
         slack = max(SLACK, printed.verdict.stretch**3 - 1.0)
@@ -98,12 +98,22 @@ def _claim(problem: Problem, rows: Sequence[Row]) -> ShownMotion | None:
         return None
     durations = durations_of(row) * (row.claimed / row.seconds)
     motion = FAMILIES[problem.family].trajectory(problem, durations)
-    title = f"best claim in the papers' coding ({row.swarm}), {_judged(problem, motion)}"
+    title = f"best claim in the papers' coding ({row.swarm}), {judged(problem, motion)}"
     return ShownMotion("published", title, motion)
 
 
-def _judged(problem: Problem, motion: Trajectory) -> str:
-    """Its time, and what the check says."""
+def judged(problem: Problem, motion: Trajectory) -> str:
+    """Say how long a motion takes, and what the check finds.
+
+    Parameters
+    ----------
+    problem : Problem
+    motion : Trajectory
+
+    Returns
+    -------
+    str
+    """
     verdict = check(problem, motion)
     kept = "keeps its limits" if verdict.feasible else f"breaks limits: {verdict.worst}"
     return f"{motion.seconds:.4f} s, {kept}"

@@ -52,7 +52,7 @@ def ladder_chart(
     said += [
         f"{line['name']} {line['seconds']:.4f} s"
         for line in lines
-        if line["kind"] in ("broken", "swarm")
+        if line["kind"] in ("broken", "swarm", "given", "faulty")
     ]
     return {
         "lines": lines,

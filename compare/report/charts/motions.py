@@ -11,6 +11,7 @@ import numpy as np
 from compare.report.motion_picture import skeleton
 from formulations import Problem, Trajectory
 from formulations.motion.verdict import QUANTITIES
+from formulations.problem.arrays import Array
 from formulations.problem.joint_words import factors, shown_unit
 
 if TYPE_CHECKING:
@@ -20,7 +21,9 @@ if TYPE_CHECKING:
 SLACK = 1e-6
 """Share of a limit that is rounding."""
 _DIGITS = 9  # of a coefficient: far below what a screen resolves
-_FRAMES = 60  # of the moving arm; straight lines between them
+_FRAMES, _MOST_FRAMES = 60, 600  # of the moving arm; straight lines between them
+_MOST_NUMBERS = 30_000  # of a motion's pieces; beyond, the page would be too large
+_INTERVALS = 400  # of a motion that is drawn by its extremes
 
 
 @dataclass(frozen=True)
@@ -58,7 +61,8 @@ def motions_chart(problem: Problem, motions: Sequence[ShownMotion]) -> dict[str,
     dict
         ``joints``: name, ``units`` and ``limits`` of position to jerk (None where there is none), and
         waypoints; ``motions``: title, kind, passage times and, by piece, durations [s] and ascending
-        coefficients by joint.
+        coefficients by joint. A motion of very many pieces has ``curves`` in their place: by joint and
+        quantity, times [s] and values, the exact extremes of each of 400 short intervals.
     """
     scales = 1.0 / factors(problem.units, problem.display_unit)
     joints = []
@@ -83,16 +87,56 @@ def motions_chart(problem: Problem, motions: Sequence[ShownMotion]) -> dict[str,
                 "title": motion.title,
                 "slack": motion.slack,
                 "passages": [_short(t) for t in motion.trajectory.passage_times],
-                "durations": [_short(t) for t in motion.trajectory.durations],
-                "pieces": [
-                    [[_short(c * scales[j]) for c in joint] for j, joint in enumerate(piece)]
-                    for piece in motion.trajectory.coefficients
-                ],
+                **_curves_or_pieces(motion.trajectory, scales),
             }
             for motion in motions
         ],
         "alt": "; ".join(motion.title for motion in motions) + ".",
     }
+
+
+def _curves_or_pieces(trajectory: Trajectory, scales: Array) -> dict[str, Any]:
+    """Its exact pieces, or what the picture shows of very many."""
+    if trajectory.coefficients.size > _MOST_NUMBERS:
+        curves = [_curves(trajectory, order) for order in range(len(QUANTITIES))]
+        return {
+            "curves": [
+                [
+                    [
+                        [float(f"{t:.5g}") for t in times[:, j]],
+                        [_short(x * scales[j]) for x in values[:, j]],
+                    ]
+                    for times, values in curves
+                ]
+                for j in range(trajectory.dof)
+            ]
+        }
+    return {
+        "durations": [_short(t) for t in trajectory.durations],
+        "pieces": [
+            [[_short(c * scales[j]) for c in joint] for j, joint in enumerate(piece)]
+            for piece in trajectory.coefficients
+        ],
+    }
+
+
+def _curves(trajectory: Trajectory, order: int) -> tuple[Array, Array]:
+    """Times and values of the least and the greatest value of each short interval, (2 n, dof) each."""
+    found = trajectory.extremes(order)
+    grid = np.linspace(0.0, trajectory.seconds, 4 * _INTERVALS + 1)
+    even = np.broadcast_to(grid[:, None], (len(grid), trajectory.dof))
+    times = np.concatenate([even, found.time_low, found.time_high])
+    values = np.concatenate([trajectory.at(grid, order), found.low, found.high])
+    lane = np.minimum((times / trajectory.seconds * _INTERVALS).astype(int), _INTERVALS - 1)
+    drawn = np.empty((2, 2 * _INTERVALS, trajectory.dof))
+    for j in range(trajectory.dof):
+        rows = np.lexsort((values[:, j], lane[:, j]))  # each interval by its values
+        first = np.searchsorted(lane[rows, j], np.arange(_INTERVALS))
+        last = np.append(first[1:], len(rows)) - 1
+        ends = np.sort(np.stack([rows[first], rows[last]]), axis=0)
+        ends = np.take_along_axis(ends, times[ends, j].argsort(axis=0, kind="stable"), axis=0).T.ravel()
+        drawn[:, :, j] = times[ends, j], values[ends, j]
+    return drawn[0], drawn[1]
 
 
 def arm_chart(arm: Arm | Robot, motions: Sequence[ShownMotion]) -> dict[str, Any]:
@@ -111,7 +155,8 @@ def arm_chart(arm: Arm | Robot, motions: Sequence[ShownMotion]) -> dict[str, Any
     """
     shown = []
     for motion in motions:
-        times = np.linspace(0.0, motion.trajectory.seconds, _FRAMES + 1)
+        frames = np.clip(4 * len(motion.trajectory.passage_times), _FRAMES, _MOST_FRAMES)
+        times = np.linspace(0.0, motion.trajectory.seconds, int(frames) + 1)
         points = skeleton(arm, motion.trajectory.at(times))
         keep = _distinct(points)
         shown.append(
@@ -122,8 +167,8 @@ def arm_chart(arm: Arm | Robot, motions: Sequence[ShownMotion]) -> dict[str, Any
                 "frames": np.round(points[:, keep], 3).tolist(),
             }
         )
-    first = motions[0].trajectory
-    tool = skeleton(arm, first.at(first.passage_times))[:, -1]
+    best = motions[-1].trajectory  # the first one may miss waypoints
+    tool = skeleton(arm, best.at(best.passage_times))[:, -1]
     title = getattr(arm, "title", arm.name)
     return {
         "motions": shown,
@@ -134,7 +179,7 @@ def arm_chart(arm: Arm | Robot, motions: Sequence[ShownMotion]) -> dict[str, Any
     }
 
 
-def _distinct(points: np.ndarray[Any, Any]) -> np.ndarray[Any, Any]:
+def _distinct(points: Array) -> Array:
     """Which points (frame, point, xyz) differ from the one before them in any frame."""
     steps = np.abs(np.diff(points, axis=1)).max(axis=(0, 2))
     return np.concatenate([[True], steps > 1e-6])
@@ -145,4 +190,4 @@ def _short(value: float) -> float:
 
 
 def _finite(value: float) -> float | None:
-    return float(f"{value:.6g}") if np.isfinite(value) else None
+    return _short(value) if np.isfinite(value) else None

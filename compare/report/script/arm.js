@@ -18,12 +18,13 @@ charts.arm = (figure, found) => {
                  name: fold(motion.title, narrow(figure) ? 40 : 90), legendgroup: motion.kind, hoverinfo: "skip",
                  line: {color: colour(tint), width: 8}, marker: {color: colour(tint), size: 3}});
   }
-  traces.push({type: "scatter3d", mode: "markers+text", ...columns(found.stops), name: "waypoints",
+  const many = found.stops.length > 40;
+  traces.push({type: "scatter3d", mode: many ? "markers" : "markers+text", ...columns(found.stops), name: "waypoints",
                text: found.stops.map((_, k) => String(k + 1)), textfont: {color: ink},
-               hovertemplate: "waypoint %{text}<extra></extra>", marker: {color: ink, size: 4, symbol: "diamond"}});
+               hovertemplate: "waypoint %{text}<extra></extra>", marker: {color: ink, size: many ? 2 : 4, symbol: "diamond"}});
   const axis = {color: colour("soft"), gridcolor: colour("grid"), zerolinecolor: colour("grid"), showspikes: false};
   const canvas = figure.querySelector(".canvas");
-  const camera = canvas.layout?.scene?.camera ?? {eye: {x: 1.25, y: -1.45, z: 0.7}};
+  const camera = canvas.layout?.scene?.camera ?? {eye: {x: 1.65, y: -1.9, z: 0.9}};
   plot(figure, traces, layout({
     height: narrow(figure) ? 480 : 600, showlegend: true, margin: {l: 0, r: 0, t: 0, b: 0},
     legend: {x: 0, y: 1.02, yanchor: "bottom"},

@@ -7,6 +7,8 @@ const KINDS = {
   reference: ["purple", "diamond", "reference of another program"],
   broken: ["red", "x", "claimed, breaks limits"],
   swarm: ["orange", "square", "swarm, verified"],
+  given: ["orange", "square", "given motion"],
+  faulty: ["red", "x", "given motion, breaks what is asked for"],
 };
 
 charts.ladder = (figure, found) => {
@@ -60,7 +62,7 @@ charts.ladder = (figure, found) => {
     height: (small ? 140 : 110) + (small ? 48 : 30) * lines.length, showlegend: true, shapes, annotations: notes,
     margin: {l: 10, r: 10, t: 24, b: 40},
     legend: {orientation: "h", x: 0, xref: "container", y: -0.02, yref: "container", yanchor: "bottom"},
-    xaxis: {title: {text: small ? "total time [s]" : "total time [s]; in brackets: against the best of the family"},
+    xaxis: {title: {text: `total time [s]${found.optimum && !small ? "; in brackets: against the best of the family" : ""}`},
             range: [0, right * (small ? 1.6 : 1.32)], showgrid: false},
     yaxis: {categoryorder: "array", categoryarray: lines.map(name).reverse(), showgrid: false,
             tickfont: {size: small ? 11 : 13}},

@@ -15,7 +15,9 @@ function derivative(coefficients, order, t) {
   return value;
 }
 
+// times and values of a curve; a motion of too many pieces comes as the extremes of short intervals
 function sampled(motion, joint, order) {
+  if (motion.curves) return motion.curves[joint][order];
   const total = motion.durations.reduce((sum, one) => sum + one, 0);
   const t = [], x = [];
   let start = 0;
@@ -33,7 +35,7 @@ function sampled(motion, joint, order) {
 
 charts.motion = (figure, found) => {
   const moving = found.joints.map((_, j) => j).filter((j) => found.joints[j].moves);
-  const joint = Number(figure.dataset.joint ?? moving[0] ?? 0);
+  const joint = Number(figure.dataset.joint ?? found.first ?? moving[0] ?? 0);
   const again = (value) => {
     figure.dataset.joint = value;
     draw(figure);
@@ -64,7 +66,7 @@ charts.motion = (figure, found) => {
       if (order === 0) {
         traces.push({type: "scatter", mode: "markers", x: motion.passages, y: waypoints, yaxis: axis, legendgroup: motion.kind,
                      showlegend: false, text: waypoints.map((_, k) => String(k + 1)),
-                     hovertemplate: "waypoint %{text} at %{x:.4f} s<extra></extra>", marker: {color: colour(tint), size: 7}});
+                     hovertemplate: "waypoint %{text} at %{x:.4f} s<extra></extra>", marker: {color: colour(tint), size: waypoints.length > 40 ? 3 : 7}});
       }
     }
     for (const limit of [low, high]) {

@@ -120,7 +120,7 @@ def test_a_problem_without_any_motion_ends_solve_with_2(
 ) -> None:
     from dataclasses import replace
 
-    from compare.commands.motions import solve
+    from compare.commands.motions import climbing
     from formulations import Ladder, ladder, load
 
     climbed = ladder(load(str(problem)))
@@ -130,7 +130,7 @@ def test_a_problem_without_any_motion_ends_solve_with_2(
         for key, rung in climbed.rungs.items()
     }  # fmt: skip
     hopeless: Ladder = replace(climbed, rungs=rungs, trajectories={}, free_form=None)
-    monkeypatch.setattr(solve, "ladder", lambda *given, **more: hopeless)
+    monkeypatch.setattr(climbing, "ladder", lambda *given, **more: hopeless)
     assert main(["solve", str(problem)]) == 2
     said = capsys.readouterr()
     assert said.err == "error: problem: no motion was found: no room to move\n"

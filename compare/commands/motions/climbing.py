@@ -1,0 +1,114 @@
+"""Climb the ladder of a problem for a command: rungs as asked for, progress on standard error, Ctrl-C."""
+
+from __future__ import annotations
+
+import sys
+from collections.abc import Callable
+from typing import Any
+
+from formulations import InputError, Ladder, Problem, ladder
+from formulations.climb import RungResult
+from formulations.deadlines import Deadline
+from formulations.diagnosis import Diagnosis, diagnose
+from formulations.rungs import LARGE, usual_rungs, with_needs
+from formulations.rungs import without as leave_out
+
+
+def chosen_rungs(
+    problem: Problem, rungs: tuple[str, ...] | None, without: tuple[str, ...] | None
+) -> tuple[str, ...]:
+    """List the rungs to be climbed, and say on standard error which are left out of a large problem.
+
+    Parameters
+    ----------
+    problem : Problem
+    rungs, without : tuple of str or None
+        The options ``--rungs`` and ``--without``.
+
+    Returns
+    -------
+    tuple of str
+        Keys of ``RUNGS``.
+
+    Raises
+    ------
+    InputError
+        If no rung is left.
+    """
+    chosen = usual_rungs(problem) if rungs is None else with_needs(rungs)
+    chosen = leave_out(chosen, without or ())
+    if not chosen:
+        raise InputError("--without: no rung is left")
+    if rungs is None and problem.n_segments > LARGE:
+        print(
+            f"{problem.name}: {problem.n_segments} segments: the rungs of the family are left out, as they "
+            f"take long beyond {LARGE}; --rungs family,family_lower asks for them",
+            file=sys.stderr,
+        )
+    return chosen
+
+
+def climb(
+    problem: Problem,
+    rungs: tuple[str, ...],
+    deadline: Deadline,
+    stage: Callable[[str], None],
+    **options: Any,
+) -> tuple[Ladder, Diagnosis | None]:
+    """Climb rungs, each of which is said on standard error as it is known, and diagnose the fastest motion.
+
+    Parameters
+    ----------
+    problem : Problem
+    rungs : tuple of str
+        Keys of ``RUNGS``.
+    deadline : Deadline
+        The climb ends when it is over, with what is known.
+    stage : callable
+        Called with the name of each stage as it begins.
+    **options
+        As in ``formulations.ladder``.
+
+    Returns
+    -------
+    Ladder
+    Diagnosis or None
+        What limits the fastest motion; None where there is none, or where the time was over.
+    """
+    answer = ladder(
+        problem,
+        rungs=rungs,
+        time_limit=deadline.left,
+        stop=deadline.stop,
+        progress=stage,
+        finished=lambda result: print(_line(problem.name, result), file=sys.stderr, flush=True),
+        **options,
+    )
+    if answer.free_form is None or deadline.over:
+        return answer, None
+    stage("what limits the fastest motion")
+    return answer, diagnose(problem, answer.free_form, deadline=deadline)
+
+
+def unsolved(answer: Ladder) -> str:
+    """Say why there is no motion at all.
+
+    Parameters
+    ----------
+    answer : Ladder
+
+    Returns
+    -------
+    str
+        The reason; empty if there is a motion, or none was asked for.
+    """
+    upper = [rung for rung in answer.rungs.values() if rung.kind == "upper"]
+    if not upper or any(rung.status == "ok" for rung in upper):
+        return ""
+    return next((rung.note for rung in upper if rung.key == "free_form" and rung.note), upper[0].note)
+
+
+def _line(name: str, rung: RungResult) -> str:
+    """One rung as soon as it is known."""
+    found = str(rung.status) if rung.seconds is None else f"{rung.seconds:.9g} s"
+    return f"{name}: {rung.key}: {found}, took {rung.runtime:.2f} s"
