@@ -132,7 +132,7 @@ def ends_again(data: dict[str, Any], swarm: str) -> Reproduction:
     Returns
     -------
     Reproduction
-        Not reproduced if half of the seeds of a joint found nothing.
+        ``NOT`` if half of the seeds of a joint found nothing.
     """
     ends = [j["descents"][swarm]["quartiles"][1][-1] for j in data["joints"]]
     return same_times(

@@ -86,7 +86,7 @@ def show_ablation(data: dict[str, Any]) -> Shown:
         remarks,
         [
             *(
-                ItemVerdict(f"that {strategy} helps", _HELPS[summary["overall"][swarm]["verdict"]])
+                ItemVerdict(f"a gain by {strategy}", _HELPS[summary["overall"][swarm]["verdict"]])
                 for swarm, strategy in ablation.STRATEGIES.items()
             ),
             ItemVerdict("the factors of eq. 19, raw as printed", factors),
