@@ -47,10 +47,6 @@ def show(data: dict[str, Any]) -> Shown:
     )
 
 
-def draws_only(data: dict[str, Any]) -> Shown:
-    return Shown([], ["Drawn."], ())
-
-
 def run(*options: str) -> int:
     return main(["papers", *options])
 
