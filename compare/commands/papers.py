@@ -15,6 +15,8 @@ from compare.commands.options import CORES, Jobs, Json, Out, Resume
 from compare.files import output_folder
 from compare.papers import ITEMS
 from compare.papers.making import choose, draw, left_to_make, make
+from compare.papers.shelf import OK
+from compare.papers.verdicts import counted
 from compare.screen import show
 from formulations import InputError
 
@@ -65,12 +67,25 @@ def papers(
     print(f"{total} tables and figures of {', '.join(chosen)}{before}", file=sys.stderr)
     made = []
     for paper, one, result in make(calls, jobs):
-        print(f"{paper}: {one.label}: {result.status}, {result.seconds:.1f} s", file=sys.stderr)
+        status = "made" if result.status == OK else result.status
+        print(f"{paper}: {one.label}: {status}, {result.seconds:.1f} s", file=sys.stderr)
         made.append({"paper": paper, "item": one.label, "status": str(result.status)})
-    failed = draw(folder, chosen, jobs)
+    text, failed, verdicts = [], [], []
+    for chapter in draw(folder, chosen, jobs):
+        for one in chosen[chapter.key]:
+            if one.label in chapter.faults:
+                failed.append(f"{chapter.key}: {one.label}: {chapter.faults[one.label]}")
+                continue
+            found = chapter.verdicts[one.label]
+            text.append(f"{chapter.key}: {one.label}: {counted([v.outcome for v in found])}")
+            verdicts += [
+                {"paper": chapter.key, "item": one.label, "what": v.what, "outcome": v.outcome.inside}
+                for v in found
+            ]
+        text.append(f"chapter: {folder / 'papers' / f'{chapter.key}.html'}")
+    failed.sort()
     for line in failed:
         print(f"error: {line}", file=sys.stderr)
-    text = [f"chapter: {folder / 'papers' / f'{paper}.html'}" for paper in chosen]
     text.append(f"{len(calls)} made, {len(failed)} failed, {time.perf_counter() - started:.0f} s")
-    show("\n".join(text), {"made": made, "failed": failed}, json)
+    show("\n".join(text), {"made": made, "failed": failed, "verdicts": verdicts}, json)
     return FAILED if failed else DONE

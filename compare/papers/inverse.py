@@ -8,7 +8,8 @@ import numpy as np
 
 from compare.audit.paper import Paper, Point
 from compare.audit.paper.digits import halves, values
-from compare.papers.item import Shown, Table
+from compare.papers.item import ItemVerdict, Shown, Table
+from compare.papers.verdicts import held
 from formulations.arms import Arm, branches, nearest, pose_of
 from formulations.arms.kinematics import error_of
 from formulations.problem.arrays import Array
@@ -96,8 +97,10 @@ def show_inverse(data: dict[str, Any]) -> Shown:
     counts = [point["branches"] for point in data["points"]]
     misses, turns = ([point[name] for point in data["points"]] for name in ("miss", "turn"))
     as_printed = [point["miss_as_printed"] for point in data["points"]]
+    outcome = held(not outside)
     remarks = [
-        f"Printed and reproduced angles are at most {apart:.1e} rad apart; "
+        f"{outcome} within what the digits allow: printed and reproduced angles are at most {apart:.1e} rad "
+        "apart; "
         + (
             f"rounding does not explain: {'; '.join(outside)}."
             if outside
@@ -113,4 +116,5 @@ def show_inverse(data: dict[str, Any]) -> Shown:
             "The other reading, the DH table as printed and without offsets, misses the printed points by "
             f"{1e3 * min(as_printed):.0f} to {1e3 * max(as_printed):.0f} mm."
         )
-    return Shown([Table(header, rows, "", range(2, dof + 3))], remarks)
+    verdict = ItemVerdict("the joint angles, within what the digits allow", outcome)
+    return Shown([Table(header, rows, "", range(2, dof + 3))], remarks, [verdict])

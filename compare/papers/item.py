@@ -3,10 +3,12 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Sequence
-from dataclasses import dataclass, field
+from dataclasses import dataclass
 from typing import Any
 
 from matplotlib.figure import Figure
+
+from compare.papers.verdicts import Reproduction
 
 
 @dataclass(frozen=True)
@@ -32,6 +34,22 @@ class Table:
 
 
 @dataclass(frozen=True)
+class ItemVerdict:
+    """What is left of one printed result; a line of the table on top of the page.
+
+    Attributes
+    ----------
+    what : str
+        The printed result, and the reading if there are several: "the gain of MIPSO over PSO, 60 deg/s²".
+    outcome : Reproduction
+        The same value that the remark on it uses.
+    """
+
+    what: str
+    outcome: Reproduction
+
+
+@dataclass(frozen=True)
 class Shown:
     """What a reader sees of an item.
 
@@ -41,10 +59,13 @@ class Shown:
         In order.
     remarks : sequence of str
         Sentences, each with the numbers that it rests on; verdicts come from ``verdicts``.
+    verdicts : sequence of ItemVerdict
+        On each printed result that the remarks judge; empty if nothing is printed that could be judged.
     """
 
     parts: Sequence[Table | Figure]
-    remarks: Sequence[str] = field(default_factory=tuple)
+    remarks: Sequence[str]
+    verdicts: Sequence[ItemVerdict]
 
 
 @dataclass(frozen=True)

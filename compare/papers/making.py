@@ -8,6 +8,7 @@ from pathlib import Path
 from compare.engines import WorkerLostError, each, workers
 from compare.papers import ITEMS, page, shelf
 from compare.papers.item import Item
+from compare.papers.page import Chapter
 from compare.papers.shelf import Made
 from formulations import InputError
 
@@ -103,7 +104,7 @@ def make(calls: list[Call], jobs: int) -> Iterator[tuple[str, Item, Made]]:
                 yield paper, item, shelf.died(*lost.call)
 
 
-def draw(folder: Path, chosen: dict[str, list[Item]], jobs: int) -> list[str]:
+def draw(folder: Path, chosen: dict[str, list[Item]], jobs: int) -> list[Chapter]:
     """Write the chapters.
 
     Parameters
@@ -117,18 +118,13 @@ def draw(folder: Path, chosen: dict[str, list[Item]], jobs: int) -> list[str]:
 
     Returns
     -------
-    list of str
-        A line for each chosen item that has failed.
+    list of Chapter
+        In the order of ``chosen``.
     """
-    calls = [(str(folder), paper, ITEMS[paper]) for paper in chosen]
+    pages = [key for key in ITEMS if key in chosen or (folder / "papers" / f"{key}.html").exists()]
+    calls = [(str(folder), paper, ITEMS[paper], pages) for paper in chosen]
     if min(jobs, len(calls)) == 1:  # not worth a process
-        chapters = [page.render(*call) for call in calls]
-    else:
-        with workers(min(jobs, len(calls))) as pool:
-            chapters = list(each(pool, "chapters", page.render, calls))
-    return sorted(
-        f"{paper}: {item.label}: {faults[item.label]}"
-        for paper, faults in chapters
-        for item in chosen[paper]
-        if item.label in faults
-    )
+        return [page.render(*call) for call in calls]
+    with workers(min(jobs, len(calls))) as pool:
+        chapters = {made.key: made for made in each(pool, "chapters", page.render, calls)}
+    return [chapters[paper] for paper in chosen]

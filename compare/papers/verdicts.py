@@ -9,7 +9,7 @@ from __future__ import annotations
 from collections.abc import Sequence
 from enum import StrEnum
 from itertools import pairwise
-from math import inf
+from math import inf, sqrt
 
 SAME = 0.01
 """Two times count as the same if they differ by at most this, relative."""
@@ -43,6 +43,21 @@ class Reproduction(StrEnum):
         return self.value[0].lower() + self.value[1:]
 
 
+def held(holds: bool) -> Reproduction:
+    """Judge something printed that either holds or does not.
+
+    Parameters
+    ----------
+    holds : bool
+        Whether it does.
+
+    Returns
+    -------
+    Reproduction
+    """
+    return Reproduction.REPRODUCED if holds else Reproduction.NOT
+
+
 def same_times(
     printed: Sequence[float], found: Sequence[float], impossible: Sequence[bool] = ()
 ) -> Reproduction:
@@ -62,8 +77,7 @@ def same_times(
     """
     if any(impossible):
         return Reproduction.NOT
-    near = all(abs(f / p - 1.0) <= SAME for p, f in zip(printed, found, strict=True))
-    return Reproduction.REPRODUCED if near else Reproduction.NOT
+    return held(all(abs(f / p - 1.0) <= SAME for p, f in zip(printed, found, strict=True)))
 
 
 def same_gain(printed: float, found: float) -> Reproduction:
@@ -132,8 +146,7 @@ def same_order(values: Sequence[float]) -> Reproduction:
     -------
     Reproduction
     """
-    rising = all(a < b for a, b in pairwise(values))
-    return Reproduction.REPRODUCED if rising else Reproduction.NOT
+    return held(all(a < b for a, b in pairwise(values)))
 
 
 def pairs_won(one: Sequence[float | None], other: Sequence[float | None]) -> float:
@@ -170,9 +183,58 @@ def more_often(share: float, pairs: int) -> str:
     str
         more often, less often, or not more often beyond chance.
     """
-    if abs(share - 0.5) <= WIDTH * 0.5 / pairs**0.5:
+    if _by_chance(share, pairs):
         return "not more often beyond chance"
     return "more often" if share > 0.5 else "less often"
+
+
+def _by_chance(share: float, pairs: int) -> bool:
+    return abs(share - 0.5) <= WIDTH * 0.5 / sqrt(pairs)
+
+
+def seen_in_pairs(share: float, pairs: int, *, clear: bool) -> Reproduction:
+    """Judge a printed pair, of which one is the better one, by many such pairs.
+
+    Parameters
+    ----------
+    share : float
+        Of pairs in which the same one is better; 0.5 is no difference.
+    pairs : int
+        How many independent pairs there are.
+    clear : bool
+        Whether one pair is enough to tell both apart in most cases.
+
+    Returns
+    -------
+    Reproduction
+        In kind if the same one is better, but so little that one pair shows nothing.
+    """
+    if _by_chance(share, pairs):
+        return Reproduction.UNDECIDED
+    if share < 0.5:
+        return Reproduction.NOT
+    return Reproduction.REPRODUCED if clear else Reproduction.IN_KIND
+
+
+def counted(outcomes: Sequence[Reproduction]) -> str:
+    """Say how many results have which outcome: 1 of 3 reproduced, 2 of 3 not reproduced.
+
+    Parameters
+    ----------
+    outcomes : sequence of Reproduction
+        One alone is named without a number.
+
+    Returns
+    -------
+    str
+        nothing to judge, if there is none.
+    """
+    if not outcomes:
+        return "nothing to judge"
+    if len(outcomes) == 1:
+        return outcomes[0].inside
+    found = {outcome: list(outcomes).count(outcome) for outcome in Reproduction}
+    return ", ".join(f"{n} of {len(outcomes)} {outcome.inside}" for outcome, n in found.items() if n)
 
 
 def agrees(holds: bool) -> str:

@@ -2,7 +2,10 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
+
+from compare.papers.item import ItemVerdict
+from compare.papers.verdicts import Reproduction
 
 
 def listed(values: Sequence[object]) -> str:
@@ -89,3 +92,29 @@ def above(value: float | None, least: float) -> str:
     if value is None:
         return "none"
     return f"{round(100.0 * (value / least - 1.0), 2) + 0.0:+.2f} %"  # no -0.00
+
+
+def result(verdicts: Mapping[str, Sequence[ItemVerdict]]) -> str:
+    """Say what is left of a paper, or of several: 12 of 31 printed results are reproduced, ...
+
+    Parameters
+    ----------
+    verdicts : dict
+        By item, what is judged of it.
+
+    Returns
+    -------
+    str
+        Without a full stop at its end.
+    """
+    found = [one.outcome for several in verdicts.values() for one in several]
+    if not found:
+        return "No printed result is judged yet"
+    count = {outcome: found.count(outcome) for outcome in Reproduction}
+    parts = [
+        f"{count[Reproduction.IN_KIND]} in kind" if count[Reproduction.IN_KIND] else "",
+        f"{count[Reproduction.NOT]} not" if count[Reproduction.NOT] else "",
+        f"{count[Reproduction.UNDECIDED]} not decided" if count[Reproduction.UNDECIDED] else "",
+    ]
+    first = f"{count[Reproduction.REPRODUCED]} of {len(found)} printed results are reproduced"
+    return ", ".join([first, *filter(None, parts)])

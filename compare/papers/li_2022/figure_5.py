@@ -11,10 +11,11 @@ from matplotlib.figure import Figure
 
 from compare.audit.paper.digits import values
 from compare.benchmark.objective import Objective, search_box
-from compare.papers.item import Item, Shown
+from compare.papers.item import Item, ItemVerdict, Shown
 from compare.papers.li_2022.paper import SWARMS, budget, rows
 from compare.papers.measure import trials
 from compare.papers.pictures.descent import descent, draw_descent
+from compare.papers.verdicts import Reproduction, same_times
 from compare.report.style import BLACK, BLUE, GREEN, GREY, ORANGE, PURPLE, SKY, VERMILION, styled
 from formulations import Problem, load
 from formulations.problem.arrays import Array
@@ -106,7 +107,37 @@ def show_fig_5(data: dict[str, Any]) -> Shown:
             "Medians "
             f"of {data['runs']} seeds: {ends}."
         )
-    return Shown([fig_5(data), descents_figure(data)], remarks)
+    outcomes = {title: ends_again(data, swarm) for swarm, title in SWARMS.items()}
+    remarks.append(
+        "The printed ends of the five curves are "
+        + " and ".join(f"{outcome.inside} with {title}" for title, outcome in outcomes.items())
+        + ", by the medians of all seeds."
+    )
+    verdicts = [
+        ItemVerdict(f"the ends of the curves, {title}", outcome) for title, outcome in outcomes.items()
+    ]
+    return Shown([fig_5(data), descents_figure(data)], remarks, verdicts)
+
+
+def ends_again(data: dict[str, Any], swarm: str) -> Reproduction:
+    """Judge the printed ends of all joints' curves by the medians of one reading.
+
+    Parameters
+    ----------
+    data : dict
+        Of ``make_fig_5``.
+    swarm : str
+        A key of ``SWARMS``.
+
+    Returns
+    -------
+    Reproduction
+        ``NOT`` if half of the seeds of a joint found nothing.
+    """
+    ends = [j["descents"][swarm]["quartiles"][1][-1] for j in data["joints"]]
+    return same_times(
+        [sum(j["printed"]) for j in data["joints"]], [np.inf if end is None else end for end in ends]
+    )
 
 
 _SEGMENTS = ((BLUE, "-"), (ORANGE, "-"), (GREEN, "-"), (PURPLE, "--"), (SKY, "--"), (BLACK, "-."))

@@ -8,12 +8,12 @@ import numpy as np
 
 from compare.audit.paper import settings
 from compare.audit.paper.digits import values
-from compare.papers.item import Item, Shown, Table
+from compare.papers.item import Item, ItemVerdict, Shown, Table
 from compare.papers.li_2022.paper import paper, rows, whole_optimum
 from compare.papers.measure import judged, peaks, spline
 from compare.papers.pictures.panels import Curve, panels
 from compare.papers.pictures.paths import length, path_views, tool_path
-from compare.papers.verdicts import agrees, smooth, yes_no
+from compare.papers.verdicts import agrees, held, smooth, yes_no
 from compare.report.style import BLUE, ORANGE, VERMILION
 from formulations import load
 from formulations.arms import load_arm
@@ -21,6 +21,7 @@ from formulations.arms import load_arm
 PLAN, RULE, BEST = "printed plan, 2 s a segment", "printed result, Table 3 starred", "certified optimum"
 STYLES = {PLAN: (ORANGE, "-"), RULE: (VERMILION, "-"), BEST: (BLUE, "--")}
 POINTS = "ABCDEFG"
+_DIGIT = 1.0  # mm: the points are printed to it
 
 
 def _motions() -> dict[str, dict[str, Any]]:
@@ -87,17 +88,19 @@ def show_fig_4(data: dict[str, Any]) -> Shown:
     ]
     worst = int(np.linalg.norm(apart, axis=1).argmax())
     others = np.delete(np.linalg.norm(apart, axis=1), worst)
+    reached = held(bool(np.linalg.norm(apart, axis=1).max() <= _DIGIT))
     remarks = [
-        f"The printed joint angles lead to the printed points within {others.max():.2f} mm, except for "
-        f"{POINTS[worst]}, which they miss by {np.linalg.norm(apart[worst]):.2f} mm. The points are printed to "
-        "1 mm.",
+        f"That the printed joint angles lead to the printed points is {reached.inside}: they do within "
+        f"{others.max():.2f} mm, except for {POINTS[worst]}, which they miss by "
+        f"{np.linalg.norm(apart[worst]):.2f} mm. The points are printed to {_DIGIT:g} mm.",
         "Straight lines from point to point are "
         f"{length(points):.3f} m long; the path of the tool is "
         + ", ".join(f"{m['length']:.3f} m long ({name})" for name, m in motions.items())
         + ".",
     ]
     table = Table(header, lines, "", range(1, 8))
-    return Shown([path_views(arm, drawn, points, list(POINTS)), table], remarks)
+    verdict = ItemVerdict("that the angles of Table 2 lead to the points", reached)
+    return Shown([path_views(arm, drawn, points, list(POINTS)), table], remarks, [verdict])
 
 
 # --- Fig. 6 ---------------------------------------------------------------------------------------
@@ -142,7 +145,8 @@ def show_fig_6(data: dict[str, Any]) -> Shown:
         "acceleration of the printed motion: the task has to state an acceleration limit, too.",
     ]
     table = Table(header, lines, "Peaks.", range(1, 7))
-    return Shown([drawn(PLAN, RULE), drawn(BEST), table], remarks)
+    verdict = ItemVerdict("that the motion is continuous, and at rest at its ends", held(continuous))
+    return Shown([drawn(PLAN, RULE), drawn(BEST), table], remarks, [verdict])
 
 
 def _short(name: str) -> str:

@@ -12,10 +12,19 @@ from compare.audit.paper import PrintedTimes, settings, with_limits
 from compare.audit.paper.digits import values
 from compare.benchmark.grade import Graded, durations_of
 from compare.benchmark.protocol import Budget
-from compare.papers.item import Item, Shown, Table
+from compare.papers.item import Item, ItemVerdict, Shown, Table
 from compare.papers.li_2022.paper import READINGS, SWARMS, budget, certified, paper, rows, whole_optimum
 from compare.papers.measure import judged, summary, trials
-from compare.papers.verdicts import AT_A_LIMIT, BEST, agrees, more_often, pairs_won, yes_no
+from compare.papers.verdicts import (
+    AT_A_LIMIT,
+    BEST,
+    Reproduction,
+    agrees,
+    held,
+    more_often,
+    pairs_won,
+    yes_no,
+)
 from compare.papers.words import listed
 from formulations import Problem, load, longest_segment
 from formulations.problem.arrays import Array
@@ -114,8 +123,30 @@ def show_table_3(data: dict[str, Any]) -> Shown:
         range(1, 6),
     )  # fmt: skip
     return Shown(
-        [Table(header, lines, caption, range(2, 9)), own], [*_remarks_3(data), _populations(data)]
+        [Table(header, lines, caption, range(2, 9)), own],
+        [*_remarks_3(data), _populations(data)],
+        _verdicts_3(data),
     )
+
+
+def _verdicts_3(data: dict[str, Any]) -> list[ItemVerdict]:
+    return [
+        ItemVerdict("the sum of the starred times", held(_adds_up(data["starred"]))),
+        *(
+            ItemVerdict(f"the starred total by the rule, {title}", _by_rule(data, reading))
+            for reading, title in READINGS.items()
+        ),
+    ]
+
+
+def _adds_up(starred: dict[str, Any]) -> bool:
+    return abs(sum(map(float, starred["times"])) - float(starred["total"])) <= 5e-5
+
+
+def _by_rule(data: dict[str, Any], reading: str) -> Reproduction:
+    """Whether the printed total lies among those that the rule claims, over all seeds."""
+    claims = [rule["seconds"] for rule in data["rule"][reading] if rule is not None]
+    return held(bool(claims) and min(claims) <= float(data["starred"]["total"]) <= max(claims))
 
 
 def _median(rule: Sequence[dict[str, Any] | None]) -> dict[str, Any] | None:
@@ -135,14 +166,13 @@ def _remarks_3(data: dict[str, Any]) -> list[str]:
     best = sum(ratio <= 1.0 + BEST for ratio in ratios)
     times = [float(t) for t in s["times"]]
     saved = 100 * (1 - sum(times) / data["first_plan"])
-    adds_up = abs(sum(times) - float(s["total"])) <= 5e-5
     remarks = [
         f"The velocity limit is not printed. Joints whose printed vector reaches pi rad/s within 1 %: "
         f"{listed(near)}; joints whose vector goes beyond it: {listed(over)}."
         + (" No one limit fits them all." if near and over else ""),
         f"{best} of {len(ratios)} printed vectors are at the certified optimum under their own peak speed, "
         f"whatever the limit was. They take {min(ratios):.2f} to {max(ratios):.2f} times that optimum.",
-        f"The starred times add up to {sum(times):.4f} s, printed {s['total']} s, {agrees(adds_up)}: "
+        f"The starred times add up to {sum(times):.4f} s, printed {s['total']} s, {agrees(_adds_up(s))}: "
         f"{saved:.2f} % less than {data['first_plan']} s. Their motion peaks at {s['speed']:.4f} rad/s and "
         f"keeps pi rad/s: {yes_no(s['keeps'])}. The optimum under pi rad/s, without a limit on acceleration, "
         "takes "
@@ -152,18 +182,20 @@ def _remarks_3(data: dict[str, Any]) -> list[str]:
         solved = [r for r in data["rule"][swarm] if r is not None]
         if not solved:
             remarks.append(
-                f"With {title} none of {data['runs']} seeds found a feasible motion of every joint."
+                f"With {title} the starred total is {_by_rule(data, swarm).inside}: none of {data['runs']} "
+                "seeds found a feasible motion of every joint."
             )
             continue
         claims = sorted(r["seconds"] for r in solved)
         honest = sorted(r["seconds"] * max(r["stretch"], 1.0) for r in solved)
         kept = sum(r["keeps"] for r in solved)
-        inside = claims[0] <= float(s["total"]) <= claims[-1]
+        outcome = _by_rule(data, swarm)
         remarks.append(
-            f"Reproduced with {title}, the rule claims {claims[0]:.4f} to {claims[-1]:.4f} s; {kept} of "
-            f"{len(solved)} motions keep the limits. Slowed down until they keep them, they take "
-            f"{honest[0]:.4f} to {honest[-1]:.4f} s. The printed {s['total']} s "
-            f"{'lies' if inside else 'does not lie'} within the range of the claims."
+            f"With {title} the starred total is {outcome.inside}: the rule claims {claims[0]:.4f} to "
+            f"{claims[-1]:.4f} s; {kept} of {len(solved)} motions keep the limits. Slowed down until they keep "
+            f"them, they take {honest[0]:.4f} to {honest[-1]:.4f} s. The printed {s['total']} s "
+            f"{'lies' if outcome is Reproduction.REPRODUCED else 'does not lie'} within the range of the "
+            "claims."
         )
     return remarks
 

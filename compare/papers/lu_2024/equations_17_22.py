@@ -58,7 +58,7 @@ def show_constants(data: dict[str, Any]) -> Shown:
         "The study of readings (timebound readings) runs the same values on other tasks with the exact "
         "stretch.",
     ]
-    return Shown([Table(header, rows, caption, (1, 2, 3))], remarks)
+    return Shown([Table(header, rows, caption, (1, 2, 3))], remarks, ())
 
 
 EQUATIONS_17_22 = Item(

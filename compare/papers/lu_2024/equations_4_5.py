@@ -80,7 +80,7 @@ def show_chords(data: dict[str, Any]) -> Shown:
             f"{kept[best]['seconds']:.2f} s, {above(kept[best]['seconds'], data['optimum'])} against the "
             "best known, and costs one evaluation. Figs 6-8 set the whales beside it."
         )
-    return Shown([Table(header, rows, caption, range(1, 6))], remarks)
+    return Shown([Table(header, rows, caption, range(1, 6))], remarks, ())
 
 
 EQUATIONS_4_5 = Item(

@@ -10,8 +10,8 @@ from matplotlib.figure import Figure
 from scipy.stats import qmc
 
 from compare.audit.paper import settings
-from compare.papers.item import Item, Shown, Table
-from compare.papers.verdicts import Reproduction
+from compare.papers.item import Item, ItemVerdict, Shown, Table
+from compare.papers.verdicts import held
 from compare.papers.words import percent
 from compare.report.style import BLUE, VERMILION, styled
 from formulations.problem.arrays import Array
@@ -153,14 +153,13 @@ def show_chaos(data: dict[str, Any]) -> Shown:
     plain, chaotic, _, single = (data["found"][k]["discrepancy"][1] for k in (_PLAIN, *READINGS))
     low, _, high = data["found"][_PLAIN]["discrepancy"]
     half = data["found"]["an orbit per coordinate, beta 0.5"]
-    more_even = chaotic < low
+    more_even = held(chaotic < low)
     return Shown(
         [chaos_figure(data), Table(header, rows, caption, range(1, 6))],
         [
-            f"That a chaotic start is more even than a random one is "
-            f"{(Reproduction.REPRODUCED if more_even else Reproduction.NOT).inside}: its median discrepancy is "
-            f"{chaotic:.4f}, that of random numbers is {plain:.4f}, and half of all random starts lie between "
-            f"{low:.4f} and {high:.4f}.",
+            f"That a chaotic start is more even than a random one is {more_even.inside}: its median "
+            f"discrepancy is {chaotic:.4f}, that of random numbers is {plain:.4f}, and half of all random "
+            f"starts lie between {low:.4f} and {high:.4f}.",
             "With one orbit through all numbers every individual lies on the graph of the map, two straight "
             + f"lines. The median discrepancy is {single:.4f}: "
             + (
@@ -174,6 +173,7 @@ def show_chaos(data: dict[str, Any]) -> Shown:
             f"whales {percent(half['zeros_of_100'], 0)} would start at the origin. Beta = 0.499 does not end "
             "there.",
         ],
+        [ItemVerdict("that a chaotic start is more even than a random one", more_even)],
     )
 
 

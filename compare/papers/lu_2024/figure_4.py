@@ -83,6 +83,7 @@ def show_arm(data: dict[str, Any]) -> Shown:
             f"The other reading, d1 = {printed:.1f} mm as printed, lifts everything by "
             f"{printed - resolved:.1f} mm. It changes no joint angle and no time.",
         ],
+        (),
     )
 
 

@@ -9,16 +9,18 @@ import numpy as np
 from matplotlib.figure import Figure
 
 from compare.audit.paper import settings
-from compare.papers.item import Item, Shown, Table
+from compare.papers.item import Item, ItemVerdict, Shown, Table
 from compare.papers.lu_2024.plan import between, losses, plan, printed_total, shared, solved, task
 from compare.papers.measure import every_motion
 from compare.papers.pictures.descent import draw_descent
-from compare.papers.verdicts import BEST
+from compare.papers.verdicts import BEST, Reproduction, agrees, held
 from compare.papers.words import percent
 from compare.report.style import BLACK, BLUE, GREEN, GREY, ORANGE, VERMILION, styled
 from compare.statistics.medians import gain_over, median_of
 from formulations import family_bound, family_optimum
 
+OF_THE_PAPER = {"whale-lu-2024": "equations resolved", "whale-lu-2024-printed": "equations as printed"}
+"""The paper's own swarm, in both readings."""
 RUNS = {False: 11, True: 50}
 STARTS = {False: 1, True: None}  # of the nonlinear program; all of them agree on z1
 _GAPS = {False: 0.1, True: 1e-3}  # of the proof: 5 s, and some minutes
@@ -101,7 +103,31 @@ def show_descent(data: dict[str, Any]) -> Shown:
         "gain over the first row",
     ]
     table = Table(header, rows, caption, range(1, 5))
-    return Shown([table, descent_figure(data)], _remarks_5(data))
+    return Shown([table, descent_figure(data)], _remarks_5(data), _verdicts_5(data))
+
+
+def _verdicts_5(data: dict[str, Any]) -> list[ItemVerdict]:
+    after = settings("z1")["descent"]["steady_after"]
+    return [
+        ItemVerdict(
+            f"a steady curve after iteration {after}, {words}", _calm_in_time(data["found"][swarm])
+        )
+        for swarm, words in OF_THE_PAPER.items()
+    ]
+
+
+def _steady(found: dict[str, Any]) -> int | None:
+    """First iteration at which the median is within 1 % of its end; None if it ends without a motion."""
+    curve = np.array(found["descent"]["quartiles"][1], dtype=float)
+    if not np.isfinite(curve[-1]):
+        return None
+    return int(found["descent"]["iterations"][np.flatnonzero(curve <= 1.01 * curve[-1])[0]])
+
+
+def _calm_in_time(found: dict[str, Any]) -> Reproduction:
+    """Whether the median is steady where the paper says that its curve is."""
+    steady = _steady(found)
+    return held(steady is not None and steady <= settings("z1")["descent"]["steady_after"])
 
 
 def _remarks_5(data: dict[str, Any]) -> list[str]:
@@ -115,15 +141,18 @@ def _remarks_5(data: dict[str, Any]) -> list[str]:
         at = np.array(found["descent"]["iterations"])
         end, name = curve[-1], SWARMS[swarm][0].capitalize()
         told = f"{name}: {solved(found)} runs find a motion within the limits"
-        if not np.isfinite(end):
+        steady = _steady(found)
+        if steady is None:
             remarks.append(f"{told}.")
             continue
-        steady = int(at[np.flatnonzero(curve <= 1.01 * end)[0]])
+        says_so = _calm_in_time(found) is Reproduction.REPRODUCED
         left = curve[np.searchsorted(at, says["left_local_optimum"])]
         remarks.append(
             f"{told}. The median ends at {end:.3f} s, {percent(end / data['optimum'] - 1.0)} above the best "
             f"known, and is within 1 % of its end from iteration {steady} on (printed: steady after "
-            f"{says['steady_after']}). After iteration {says['left_local_optimum']}, where the paper sees the "
+            f"{says['steady_after']}"
+            + (f"), {agrees(says_so)}. " if swarm in OF_THE_PAPER else "). ")
+            + f"After iteration {says['left_local_optimum']}, where the paper sees the "
             f"swarm leave a local optimum, it falls by {percent(1.0 - end / left)}."
         )
     ends = [found["descent"]["quartiles"][1][-1] for found in data["found"].values()]

@@ -7,7 +7,7 @@ from typing import Any
 import numpy as np
 from matplotlib.figure import Figure
 
-from compare.papers.item import Item, Shown, Table
+from compare.papers.item import Item, ItemVerdict, Shown, Table
 from compare.papers.lu_2024.equations_4_5 import by_rule
 from compare.papers.lu_2024.figure_5 import RUNS, STARTS
 from compare.papers.lu_2024.full_stops import FullStops
@@ -15,7 +15,7 @@ from compare.papers.lu_2024.other_waypoints import make_sets, sets_remarks, sets
 from compare.papers.lu_2024.plan import between, losses, plan, printed_total, shared, solved, task
 from compare.papers.measure import judged, spline
 from compare.papers.pictures.panels import all_joints, panels, verdict_told
-from compare.papers.verdicts import agrees, shown_gain, smooth
+from compare.papers.verdicts import Reproduction, agrees, held, shown_gain, smooth
 from compare.papers.words import percent
 from compare.statistics.medians import Estimate, gain_over, median_of
 from formulations import check, family_optimum
@@ -103,31 +103,54 @@ def show_curves(data: dict[str, Any]) -> Shown:
     parts: list[Table | Figure] = [Table(header, rows, caption, (1, 2, 3, 4, 5))]
     if columns:
         parts.append(panels(columns))
-    return Shown([*parts, sets_table(data["others"])], _remarks(data))
+    return Shown([*parts, sets_table(data["others"])], _remarks(data), _verdicts(data))
+
+
+RIVALS = {
+    "quintic": "the gain of the B-spline over the quintic spline",
+    "quintic, same whales": "the same gain, the same whales for both",
+    "stops": "the same gain, over a quintic with a full stop at each waypoint",
+}
+
+
+def _gain(data: dict[str, Any], rival: str) -> tuple[Estimate, Reproduction]:
+    """By how much the B-spline is shorter than a rival, and what that leaves of the printed gain."""
+    found = gain_over(*(losses(data["found"][key]) for key in ("b-spline-5", rival)), seed=0)
+    return found, shown_gain(_claimed(), found.value, found.low, found.high)
+
+
+def _claimed() -> float:
+    spline_5, quintic = (float(printed_total(METHODS[key][1])) for key in _DRAWN)
+    return 1.0 - spline_5 / quintic
+
+
+def _verdicts(data: dict[str, Any]) -> list[ItemVerdict]:
+    verdicts = [ItemVerdict(what, _gain(data, rival)[1]) for rival, what in RIVALS.items()]
+    if "b-spline-5" in data["ends"]:
+        calm = smooth(*data["ends"]["b-spline-5"].values())
+        verdicts.append(
+            ItemVerdict("that the B-spline is continuous, and at rest at its ends", held(calm))
+        )
+    return verdicts
 
 
 def _remarks(data: dict[str, Any]) -> list[str]:
     optima = data["optima"]
     printed = [float(printed_total(METHODS[key][1])) for key in _DRAWN]
-    claimed = 1.0 - printed[0] / printed[1]
+    claimed = _claimed()
     times = {key: losses(entry) for key, entry in data["found"].items()}
     runs = len(times["quintic"])
-    gains = {
-        rival: gain_over(times["b-spline-5"], times[rival], seed=0)
-        for rival in ("quintic", "quintic, same whales", "stops")
-    }
-    first = gains["quintic"]
-    outcome = shown_gain(claimed, first.value, first.low, first.high)
+    first, outcome = _gain(data, "quintic")
+    alike, outcome_alike = _gain(data, "quintic, same whales")
     inside = first.low <= claimed <= first.high
     remarks = [
         f"The waypoints are our own: the printed {printed[0]:.2f} s and {printed[1]:.2f} s cannot be "
         "reproduced, only which method is the shorter one.",
         f"{outcome}: by the medians of {runs} runs each, the B-spline is {_shorter(first.value)} than the "
         f"quintic ({_interval(first)}; printed: {_shorter(claimed)}, which lies "
-        f"{'inside' if inside else 'outside'}). With the same whales for both it is "
-        f"{_shorter(gains['quintic, same whales'].value)} "
-        f"({_interval(gains['quintic, same whales'])}).",
-        _stops(data, gains["stops"], claimed),
+        f"{'inside' if inside else 'outside'}). With the same whales for both it is {_shorter(alike.value)} "
+        f"({_interval(alike)}): {outcome_alike.inside}.",
+        _stops(data),
     ]
     apart = 1.0 - optima["b-spline-5"] / optima["quintic"]
     left = {key: median_of(times[key]).value / optima[key] - 1.0 for key in _DRAWN}
@@ -156,11 +179,11 @@ def _remarks(data: dict[str, Any]) -> list[str]:
     return remarks
 
 
-def _stops(data: dict[str, Any], gain: Estimate, claimed: float) -> str:
+def _stops(data: dict[str, Any]) -> str:
     """Say what is left of the gain if the rival stops at each waypoint."""
     least, quintic = data["optima"]["stops"], median_of(losses(data["found"]["quintic"])).value
     bspline = median_of(losses(data["found"]["b-spline-5"])).value
-    outcome = shown_gain(claimed, gain.value, gain.low, gain.high)
+    gain, outcome = _gain(data, "stops")
     return (
         f"The second reading of the rival, a quintic with a full stop at each waypoint, takes {least:.2f} s "
         f"at best ({'keeps' if data['stops_keep'] else 'breaks'} all limits), in closed form and without a "

@@ -7,9 +7,9 @@ from typing import Any
 import numpy as np
 from numpy.polynomial.polynomial import polyval
 
-from compare.papers.item import Item, Shown, Table
+from compare.papers.item import Item, ItemVerdict, Shown, Table
 from compare.papers.measure import spline
-from compare.papers.verdicts import smooth
+from compare.papers.verdicts import held, smooth
 from compare.papers.wang_2025.motions import PLAN, RULE, motions
 from compare.papers.words import seconds
 from formulations import load
@@ -118,7 +118,12 @@ def show_system(data: dict[str, Any]) -> Shown:
             ": that cannot be meant." if singular else ", and the velocity jumps at the first waypoint."
         ),
     ]
-    return Shown([Table(header, lines, "", (1, 2, 3, 4))], remarks)
+    by_eq_4, as_printed = (f"with the -1 of row 2 at {READINGS[r]}" for r in (BY_EQ_4, AS_PRINTED))
+    verdicts = [
+        ItemVerdict(f"that the system gives the 3-5-3 spline, {by_eq_4}", held(same)),
+        ItemVerdict(f"that it has one solution, {as_printed}, as our text has it", held(not singular)),
+    ]
+    return Shown([Table(header, lines, "", (1, 2, 3, 4))], remarks, verdicts)
 
 
 EQUATIONS_5_7 = Item(

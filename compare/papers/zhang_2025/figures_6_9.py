@@ -10,11 +10,11 @@ from matplotlib.figure import Figure
 
 from compare.audit.paper import settings
 from compare.audit.paper.digits import values
-from compare.papers.item import Item, Shown, Table
+from compare.papers.item import Item, ItemVerdict, Shown, Table
 from compare.papers.measure import judged, least, spline, summary, trials
 from compare.papers.pictures.descent import descent, draw_descent
 from compare.papers.pictures.panels import all_joints, panels, verdict_told
-from compare.papers.verdicts import agrees, same_gains, smooth
+from compare.papers.verdicts import Reproduction, agrees, held, same_gains, smooth
 from compare.papers.words import listed, percent
 from compare.papers.zhang_2025.layers import first_layer, integrated, second_layer
 from compare.papers.zhang_2025.paper import BUDGET, RUNS, ends, first_plan, paper, reductions
@@ -91,26 +91,52 @@ def show_descents(data: dict[str, Any]) -> Shown:
         "per cent the improved PSO ends below its rivals."
     )
     return Shown(
-        [Table(header, lines, caption, range(1, len(header))), descent_figure(data)], _remarks_6(data)
+        [Table(header, lines, caption, range(1, len(header))), descent_figure(data)],
+        _remarks_6(data),
+        _verdicts_6(data),
     )
+
+
+def _verdicts_6(data: dict[str, Any]) -> list[ItemVerdict]:
+    return [
+        ItemVerdict("the gain over the standard PSO", _gain(data, "PSO")),
+        ItemVerdict("the gain over the whales", _gain(data, "WOA")),
+        ItemVerdict("the end of joint 1, against Table 4", held(_as_in_table_4())),
+    ]
+
+
+def _gains(data: dict[str, Any], rival: str) -> list[float]:
+    """By how much the median improved PSO ends below a rival, by joint [%]."""
+    found = [joint["found"] for joint in data["joints"]]
+    return [_reduction({key: f[key]["median"] for key in SWARMS}, rival) for f in found]
+
+
+def _gain(data: dict[str, Any], rival: str) -> Reproduction:
+    printed = [float(p) / 100.0 for p in reductions()[rival]]
+    return same_gains(printed, [gain / 100.0 for gain in _gains(data, rival)])
+
+
+def _own_total() -> float:
+    """Sum of the times of joint 1 in Table 4 [s]."""
+    return float(values(paper().rows[0].times).sum())
+
+
+def _as_in_table_4() -> bool:
+    return abs(float(ends()["improved"]) - _own_total()) <= _ROUNDING
 
 
 def _remarks_6(data: dict[str, Any]) -> list[str]:
     printed, joints = reductions(), data["joints"]
     end, standard = (float(ends()[name]) for name in ("improved", "PSO"))
     bound, way, limit = joints[0]["bound"], data["crossing"][0], data["limit"]
-    own = float(values(paper().rows[0].times).sum())
     medians = [{k: joint["found"][k]["median"] for k in SWARMS} for joint in joints]
     restless = [
         m["PSO, no inertia"] / joint["bound"] - 1.0 for m, joint in zip(medians, joints, strict=True)
     ]
     says = {key: settings("cobot")["converged"][key] for key in ("improved", "PSO", "WOA")}
     steady = {key: _steady(joints[1]["found"][key]["descent"]) for key in says}
-    gains = {rival: [_reduction(m, rival) for m in medians] for rival in printed}
-    outcomes = {
-        rival: same_gains([float(p) / 100.0 for p in printed[rival]], [g / 100.0 for g in gains[rival]])
-        for rival in printed
-    }
+    gains = {rival: _gains(data, rival) for rival in printed}
+    outcomes = {rival: _gain(data, rival) for rival in printed}
     needed = limit * bound / end
     factor = 1.0 / (1.0 - float(printed["PSO"][5]) / 100.0)
     worst = max(joints[5]["found"]["PSO"]["seconds"]) / joints[5]["bound"]
@@ -120,8 +146,8 @@ def _remarks_6(data: dict[str, Any]) -> list[str]:
         f"{max(gains['PSO']):.2f} % (negative: above it). The gain over the whales is "
         f"{outcomes['WOA'].inside}: printed "
         f"{_range(printed['WOA'])} %, reproduced {min(gains['WOA']):.1f} to {max(gains['WOA']):.1f} %.",
-        f"For joint 1 and the same algorithm Fig. 6 ends at {end} s and Table 4 adds up to {own:.4f} s"
-        + (": the two contradict each other." if abs(end - own) > _ROUNDING else ".")
+        f"For joint 1 and the same algorithm Fig. 6 ends at {end} s and Table 4 adds up to {_own_total():.4f} s"
+        + ("." if _as_in_table_4() else ": the two contradict each other.")
         + f" {end} s over {way:.0f} deg asks for {way / end:.1f} deg/s on average of any motion. A 3-5-3 "
         f"spline would need a limit of at least {needed:.1f} deg/s; the motion of Table 4 "
         f"{'stays below' if needed > limit else 'needs up to'} {limit:.0f} deg/s.",
@@ -199,18 +225,40 @@ def show_curves(data: dict[str, Any]) -> Shown:
         )
         for name, title in titles.items()
     ]  # fmt: skip
-    return Shown([panels(columns)], _remarks_7(data))
+    return Shown([panels(columns)], _remarks_7(data), _verdicts_7(data))
+
+
+def _calm(motion: dict[str, Any]) -> bool:
+    """Whether a motion is smooth, and at rest at its ends."""
+    found = spline(load("cobot"), motion["durations"])
+    edge = np.abs([found.at([0.0, found.seconds], order) for order in (1, 2)]).max()
+    return smooth(*found.jumps.ravel(), float(edge))
+
+
+def _needed(data: dict[str, Any]) -> float:
+    """Speed limit under which a spline could take the printed total [deg/s]."""
+    return float(data["limit"] * data["bound"] / float(data["total"]))
+
+
+def _verdicts_7(data: dict[str, Any]) -> list[ItemVerdict]:
+    printed = data["motions"]["printed"]
+    same = abs(printed["seconds"] - float(data["total"])) <= _ROUNDING
+    return [
+        ItemVerdict("that the motion is smooth, and at rest at its ends", held(_calm(printed))),
+        ItemVerdict("that it takes the printed total", held(same)),
+        ItemVerdict(
+            f"that the printed total can be done under {data['limit']:.0f} deg/s",
+            held(_needed(data) <= data["limit"]),
+        ),
+    ]
 
 
 def _remarks_7(data: dict[str, Any]) -> list[str]:
-    problem, motions = load("cobot"), data["motions"]
+    motions = data["motions"]
     before, printed, again = (motions[name]["seconds"] for name in ("before", "printed", "reproduced"))
     total, top = float(data["total"]), {name: max(s) for name, s in data["speeds"].items()}
     late = [j + 1 for j, s in enumerate(data["speeds"]["printed"]) if s > 0.99 * top["printed"]]
-    motion = spline(problem, motions["printed"]["durations"])
-    edge = np.abs([motion.at([0.0, motion.seconds], order) for order in (1, 2)]).max()
-    calm = smooth(*motion.jumps.ravel(), float(edge))
-    needed = data["limit"] * data["bound"] / total
+    calm, needed = _calm(motions["printed"]), _needed(data)
     return [
         f"The printed motion is {'smooth and at rest' if calm else 'not smooth or not at rest'} at both ends, "
         f"{agrees(calm)}. It takes {printed:.4f} s (printed: {data['total']} s), "

@@ -9,8 +9,8 @@ import numpy as np
 
 from compare.audit.paper.digits import values
 from compare.papers.inverse import make_inverse
-from compare.papers.item import Item, Shown, Table
-from compare.papers.verdicts import Reproduction
+from compare.papers.item import Item, ItemVerdict, Shown, Table
+from compare.papers.verdicts import held
 from compare.papers.words import triple
 from compare.papers.zhang_2025.paper import paper
 from formulations.arms import Chain, load_arm
@@ -112,8 +112,9 @@ def show_angles(data: dict[str, Any]) -> Shown:
     apart = np.abs(np.subtract([p["found"] for p in points], [p["printed"] for p in points]))
     worst = int(apart.max(axis=1).argmax())
     others = sorted(p["miss"] for p in points)[-2]
-    outcome = Reproduction.REPRODUCED if fitted <= _FITS else Reproduction.NOT
+    outcome, as_printed = held(fitted <= _FITS), held(max(misses) <= _FITS)
     by = "the arm as printed" if max(misses) <= _FITS else "another arm than the printed one"
+    misprint = data["text_miss"] > 10.0 * fitted
     return Shown(
         [places, forms, angles],
         [
@@ -134,7 +135,12 @@ def show_angles(data: dict[str, Any]) -> Shown:
                 else "."
             ),
             f"The other reading of X1, z = {data['text_z']} mm in the text, is {data['text_miss']:.1f} mm off"
-            + (": a misprint." if data["text_miss"] > 10.0 * fitted else "."),
+            + (": a misprint." if misprint else "."),
+        ],
+        [
+            ItemVerdict("that the angles lead to the points, by a fitted arm", outcome),
+            ItemVerdict("that the angles lead to the points, by the arm of Table 1", as_printed),
+            ItemVerdict("X1 as the text prints it", held(not misprint)),
         ],
     )
 

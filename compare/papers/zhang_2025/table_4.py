@@ -9,9 +9,9 @@ import numpy as np
 from compare.audit.motion.printed_motion import PrintedMotion
 from compare.audit.paper import settings
 from compare.audit.paper.digits import values
-from compare.papers.item import Item, Shown, Table
+from compare.papers.item import Item, ItemVerdict, Shown, Table
 from compare.papers.measure import judged, least, summary
-from compare.papers.verdicts import same_times, yes_no
+from compare.papers.verdicts import Reproduction, held, same_times, yes_no
 from compare.papers.words import percent
 from compare.papers.zhang_2025.layers import first_layer, layers_remarks, layers_table, make_layers
 from compare.papers.zhang_2025.paper import RUNS, paper
@@ -85,17 +85,38 @@ def show_times(data: dict[str, Any]) -> Shown:
     return Shown(
         [Table(header, lines, caption, (1, 2, 3, 4, 5, 6)), layers_table(layers, bound)],
         [*_remarks(data), *layers_remarks(layers, bound)],
+        _verdicts(data),
     )
 
 
+def _sums(data: dict[str, Any]) -> list[float]:
+    """Printed sums of each joint, then of the arm [s]."""
+    return [sum(map(float, times)) for times in data["printed"]]
+
+
+def _alone(data: dict[str, Any]) -> Reproduction:
+    """Judge the printed times of the joints as those of each joint alone."""
+    return same_times(_sums(data)[:6], [found["median"] for found in data["alone"]])
+
+
+def _adds_up(data: dict[str, Any]) -> bool:
+    return abs(_sums(data)[6] - float(data["total"])) <= _ROUNDING
+
+
+def _verdicts(data: dict[str, Any]) -> list[ItemVerdict]:
+    return [
+        ItemVerdict("the total as the sum of the longest times", held(_adds_up(data))),
+        ItemVerdict("the times of each joint alone", _alone(data)),
+    ]
+
+
 def _remarks(data: dict[str, Any]) -> list[str]:
-    sums = [sum(map(float, times)) for times in data["printed"]]
+    sums = _sums(data)
     bound, arm, rule = data["least"][6], data["arm"], data["rule"]
     first = data["printed"][0]
     later = float(first[1]) + float(first[2])
-    left_out = abs(later - float(data["total"])) <= _ROUNDING < abs(sums[6] - float(data["total"]))
+    left_out = abs(later - float(data["total"])) <= _ROUNDING and not _adds_up(data)
     ratios = [sums[j] / data["least"][j] for j in range(6)]
-    outcome = same_times(sums[:6], [found["median"] for found in data["alone"]])
     peak = max(data["speeds"][6])
     keeps = "keeps the limit" if rule["keeps"] else f"is too fast by a factor of {rule['stretch']:.4f}"
     return [
@@ -104,9 +125,9 @@ def _remarks(data: dict[str, Any]) -> list[str]:
         + f" ({first[1]} + {first[2]} = {later:.4f} s): each row adds up to at least {min(sums[:6]):.4f} "
         "s, the "
         f"longest times of all segments to {sums[6]:.4f} s.",
-        f"As the optimum of each joint alone the rows are {outcome.inside}: they take {min(ratios):.2f} to "
-        f"{max(ratios):.2f} times what the joints need. As times of the whole arm they are "
-        f"{percent(arm['seconds'] / bound - 1.0)} above its certified optimum of {bound:.4f} s under "
+        f"As the optimum of each joint alone the rows are {_alone(data).inside}: they take "
+        f"{min(ratios):.2f} to {max(ratios):.2f} times what the joints need. As times of the whole arm they "
+        f"are {percent(arm['seconds'] / bound - 1.0)} above its certified optimum of {bound:.4f} s under "
         f"{data['limit']:.0f} deg/s. The improved PSO, reproduced, comes within "
         f"{data['whole']['median'] / bound - 1.0:.1e} of that optimum.",
         f"No limit is printed. The printed motion peaks at {peak:.1f} deg/s and keeps {data['limit']:.0f} "

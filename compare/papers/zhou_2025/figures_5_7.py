@@ -10,12 +10,12 @@ from matplotlib.figure import Figure
 
 from compare.audit.paper import load_papers, settings
 from compare.audit.paper.digits import values
-from compare.papers.item import Item, Shown
+from compare.papers.item import Item, ItemVerdict, Shown
 from compare.papers.measure import judged, least, spline, summary, trials
 from compare.papers.pictures.descent import descent, draw_descent
 from compare.papers.pictures.panels import all_joints, panels, verdict_told
 from compare.papers.pictures.paths import length, path_views, tool_path
-from compare.papers.verdicts import Reproduction, same_order, same_times, smooth
+from compare.papers.verdicts import held, same_order, same_times, smooth
 from compare.papers.words import listed
 from compare.papers.zhou_2025.paper import BUDGET, RUNS, SWARMS, as_meant, printed_ends
 from compare.report.style import BLACK, BLUE, GREEN, GREY, ORANGE, VERMILION, styled
@@ -65,7 +65,7 @@ def show_path(data: dict[str, Any]) -> Shown:
         motions.append((f"{name} times, {motion.seconds:.3f} s", style, motion))
     long = [length(tool_path(arm, motion)) for _, _, motion in motions]
     miss = [1e3 * m for m in data["miss"]]
-    outcome = Reproduction.REPRODUCED if max(miss) <= _POINT_HALF else Reproduction.NOT
+    outcome = held(max(miss) <= _POINT_HALF)
     return Shown(
         [path_views(arm, motions, _points(), [f"P{i + 1}" for i in range(4)])],
         [
@@ -74,6 +74,7 @@ def show_path(data: dict[str, Any]) -> Shown:
             "The times change the shape of the path, not only the speed along it: with the printed times the "
             f"tool goes {long[0]:.2f} m, with the reproduced ones {long[1]:.2f} m.",
         ],
+        [ItemVerdict("that the path passes P1 to P4", outcome)],
     )
 
 
@@ -144,6 +145,10 @@ def show_descents(data: dict[str, Any]) -> Shown:
             f"First iteration within 1 % of the optimum (median run): {fast}. The printed order, ISSA before "
             f"SSA before PSO, is {order.inside} at the end.",
         ],
+        [
+            ItemVerdict("the ends of the curves", outcome),
+            ItemVerdict("the order at the end: ISSA, SSA, PSO", order),
+        ],
     )  # fmt: skip
 
 
@@ -185,6 +190,10 @@ def show_curves(data: dict[str, Any]) -> Shown:
             _first_plan(data["before"]),
             f"The rule of the longest time per segment {rule} the limits of all joints here: the reproduced "
             f"plan uses most of the {reproduced['most']}.",
+        ],
+        [
+            ItemVerdict("that the motion is smooth", held(calm)),
+            ItemVerdict("that it keeps the limits it was planned for", held(printed["keeps"])),
         ],
     )
 

@@ -10,7 +10,7 @@ import numpy as np
 from compare.benchmark.grade import Graded
 from compare.papers.item import Table
 from compare.papers.measure import judged, summary, trials
-from compare.papers.verdicts import more_often, pairs_won, same_times
+from compare.papers.verdicts import Reproduction, more_often, pairs_won, same_times
 from compare.papers.zhou_2025.paper import BUDGET
 from formulations import Problem, longest_segment
 
@@ -98,9 +98,31 @@ def groups_remark(groups: dict[str, Any], printed: Sequence[float], impossible: 
     """
     one, two = ([s for f in groups[name]["found"] for s in f["by_seed"]] for name in READINGS)
     won, n = pairs_won(two, one), len(one)
-    found = [f["median"] for f in groups["two"]["found"]] + [groups["two"]["arm"]["seconds"]]
+    outcome = times_by_two_groups(groups, printed, impossible)
     return (
         f"Sec. 4.2, step 1: with two groups ISSA ends lower than with one flock in {won:g} of {n} "
         f"pairs of runs, {more_often(won / n, n)}. By that reading, too, the times of Table "
-        f"6 are {same_times(printed, found, impossible).inside}."
+        f"6 are {outcome.inside}."
     )
+
+
+def times_by_two_groups(
+    groups: dict[str, Any], printed: Sequence[float], impossible: Sequence[bool]
+) -> Reproduction:
+    """Judge the printed times by the runs with two groups.
+
+    Parameters
+    ----------
+    groups : dict
+        Of ``make_groups``.
+    printed : sequence of float [s]
+        Printed sums of the joints, then of the arm.
+    impossible : sequence of bool
+        Whether each is proved to be too short for the limits.
+
+    Returns
+    -------
+    Reproduction
+    """
+    found = [f["median"] for f in groups["two"]["found"]] + [groups["two"]["arm"]["seconds"]]
+    return same_times(printed, found, impossible)

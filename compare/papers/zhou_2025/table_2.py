@@ -9,8 +9,8 @@ from scipy.optimize import least_squares, minimize_scalar
 
 from compare.audit.paper import load_papers
 from compare.audit.paper.digits import values
-from compare.papers.item import Item, Shown, Table
-from compare.papers.verdicts import Reproduction
+from compare.papers.item import Item, ItemVerdict, Shown, Table
+from compare.papers.verdicts import held
 from compare.papers.words import triple
 from formulations import load
 from formulations.arms import distance_to, load_arm
@@ -116,14 +116,16 @@ def show_angles(data: dict[str, Any]) -> Shown:
     tilts = [r["tilt"] for r in data["rows"]]
     lost = data["rows"][0]["tilt_as_printed"]
     near = data["apart"] <= _SAME_ANGLE
+    outcome, reached = held(near), held(max(away) <= _IN_REACH)
     restored = max(tilts) <= _SAME_ANGLE < lost
     return Shown(
         [reach, angles],
         [
             f"{sum(o > _IN_REACH for o in out)} of {len(out)} points are out of reach, by {min(out):.1f} to "
             f"{max(out):.1f} mm. The printed angles leave the tool {min(away):.1f} to {max(away):.1f} mm away "
-            "from the points; no other angles bring it closer than the distance out of reach.",
-            f"{Reproduction.REPRODUCED if near else Reproduction.NOT}: a least-squares inverse kinematics "
+            "from the points; no other angles bring it closer than the distance out of reach. That they lead "
+            f"to the points is {reached.inside}.",
+            f"{outcome}: a least-squares inverse kinematics "
             "from zero "
             "angles, "
             f"with one metre weighing as much as one radian, stops within {data['apart']:.2f} deg of every "
@@ -138,6 +140,10 @@ def show_angles(data: dict[str, Any]) -> Shown:
             "the same "
             f"orientation at all four points; as printed it is {lost:.1f} deg off at P1."
             + (" The sign is lost in print." if restored else ""),
+        ],
+        [
+            ItemVerdict("the joint angles, as a solver leaves them", outcome),
+            ItemVerdict("that the angles lead to the points", reached),
         ],
     )
 

@@ -8,11 +8,16 @@ import numpy as np
 
 from compare.audit.motion.printed_motion import PrintedMotion
 from compare.audit.paper import load_papers, settings, with_limits
-from compare.papers.item import Item, Shown, Table
+from compare.papers.item import Item, ItemVerdict, Shown, Table
 from compare.papers.measure import judged, least, summary, trials
-from compare.papers.verdicts import same_gain, same_times
+from compare.papers.verdicts import Reproduction, same_gain, same_times
 from compare.papers.words import listed, percent
-from compare.papers.zhou_2025.groups import groups_remark, groups_table, make_groups
+from compare.papers.zhou_2025.groups import (
+    groups_remark,
+    groups_table,
+    make_groups,
+    times_by_two_groups,
+)
 from compare.papers.zhou_2025.paper import BUDGET, RUNS, SWARMS, as_meant
 from formulations import load, longest_segment
 
@@ -65,18 +70,42 @@ def show_times(data: dict[str, Any]) -> Shown:
     printed = [sum(map(float, times)) for times in issa["printed"]]
     parts.append(groups_table(groups, data["least"], printed))
     remarks += [_gain(data), groups_remark(groups, printed, issa["impossible"])]
-    return Shown(parts, [*remarks, _other_readings(data)])
+    verdicts = [
+        *(
+            ItemVerdict(f"times by {name} ({s['where']})", _times(data, name))
+            for name, s in data["swarms"].items()
+        ),
+        ItemVerdict(
+            "times by ISSA, two groups", times_by_two_groups(groups, printed, issa["impossible"])
+        ),
+        ItemVerdict("the gain of ISSA over PSO", _gain_found(data)[2]),
+    ]
+    return Shown(parts, [*remarks, _other_readings(data)], verdicts)
+
+
+def _times(data: dict[str, Any], name: str) -> Reproduction:
+    """Judge the printed times of one algorithm, of each joint and of the arm."""
+    s = data["swarms"][name]
+    printed = [sum(map(float, times)) for times in s["printed"]]
+    found = [f["median"] for f in s["found"]] + [s["arm"]["seconds"]]
+    return same_times(printed, found, s["impossible"])
+
+
+def _gain_found(data: dict[str, Any]) -> tuple[str, float, Reproduction]:
+    """Return the printed gain of ISSA over PSO [%], the one found, and what that leaves of the first."""
+    claim = next(c for c in load_papers("zhou_2025")[0].claims if c.rule == "reduction")  # over PSO
+    issa, pso = (sum(f["median"] for f in data["swarms"][name]["found"]) for name in ("ISSA", "PSO"))
+    found = 1.0 - issa / pso
+    return str(claim.equals), found, same_gain(claim.equals.value / 100.0, found)
 
 
 def _remark(data: dict[str, Any], name: str) -> str:
     """Whether the printed times of one algorithm are reproduced."""
     s, bounds = data["swarms"][name], data["least"]
-    printed = [sum(map(float, times)) for times in s["printed"]]
-    found = [f["median"] for f in s["found"]] + [s["arm"]["seconds"]]
     joints = [j + 1 for j in range(6) if s["impossible"][j]]
-    total = printed[-1]
+    total = sum(map(float, s["printed"][-1]))
     return (
-        f"{s['where']}, {name}: {same_times(printed, found, s['impossible']).inside}. Joints whose printed "
+        f"{s['where']}, {name}: {_times(data, name).inside}. Joints whose printed "
         f"time is proved to be shorter than that of any 3-5-3 spline within the limits of Table 3: "
         f"{listed(joints)}. The motion of all joints takes {s['total']} s in print and "
         + (
@@ -91,14 +120,13 @@ def _remark(data: dict[str, Any], name: str) -> str:
 
 def _gain(data: dict[str, Any]) -> str:
     """Whether the gain of ISSA over PSO is reproduced."""
-    claim = next(c for c in load_papers("zhou_2025")[0].claims if c.rule == "reduction")  # over PSO
+    printed, found, outcome = _gain_found(data)
     medians = {name: sum(f["median"] for f in s["found"]) for name, s in data["swarms"].items()}
     best = sum(data["least"][:-1])
     gaps = ", ".join(f"{name} {medians[name] / best - 1.0:.1e}" for name in medians)
-    found = 1.0 - medians["ISSA"] / medians["PSO"]
     return (
-        f"The gain of ISSA over PSO is {same_gain(claim.equals.value / 100.0, found).inside}. Printed: "
-        f"{claim.equals} % shorter. With the same budget the median runs of ISSA, summed over the joints, are "
+        f"The gain of ISSA over PSO is {outcome.inside}. Printed: "
+        f"{printed} % shorter. With the same budget the median runs of ISSA, summed over the joints, are "
         f"{percent(abs(found), 3)} {'shorter' if found > 0.0 else 'longer'} than those of PSO. Gaps to the "
         f"optimum: {gaps}."
     )

@@ -10,12 +10,14 @@ import tomllib
 from pathlib import Path
 from typing import Any
 
+import matplotlib.pyplot as plt
 import pytest
 
 from compare.__main__ import main
 from compare.audit.paper import published_text
 from compare.papers import ITEMS, page, shelf
-from compare.papers.item import Item, Shown, Table
+from compare.papers.item import Item, ItemVerdict, Shown, Table
+from compare.papers.verdicts import held
 
 
 def fine(full: bool) -> dict[str, Any]:
@@ -37,7 +39,12 @@ def unstorable(full: bool) -> dict[str, Any]:
 
 
 def show(data: dict[str, Any]) -> Shown:
-    return Shown([Table(["answer"], [[str(data["answer"])]])], ["It is what it is."])
+    verdict = ItemVerdict("the <b>answer", held(data["answer"] == 42))
+    figure, axes = plt.subplots()
+    axes.plot([0.0, 1.0])
+    return Shown(
+        [Table(["answer"], [[str(data["answer"])]]), figure], ['It is "what" it is.'], [verdict]
+    )
 
 
 def run(*options: str) -> int:
@@ -71,7 +78,7 @@ def test_failing_items_have_a_status_and_cost_no_other_item(
     assert stored["table-1"]["data"] == {"answer": 42}
     assert stored["table-2"]["data"] is None
     text = (tmp_path / "papers" / "sr4c.html").read_text("utf-8")
-    assert "<td>42</td>" in text
+    assert '<td class="text">42</td>' in text
     assert "planted &lt;fault&gt;" in text
     assert count.read_text("utf-8") == "made\n"
 
@@ -90,7 +97,7 @@ def test_each_chapter_ends_with_what_its_paper_file_says_was_left_out(tmp_path: 
         page.render(str(tmp_path), paper, ())
         text = html.unescape((tmp_path / "papers" / f"{paper}.html").read_text("utf-8"))
         cells = [" ".join(row[key].split()) for row in told for key in ("where", "what", "why")]
-        assert re.findall(r"<td>(.*?)</td>", text) == cells
+        assert re.findall(r'<td class="text">(.*?)</td>', text) == cells
         assert ("What was left out" in text) == bool(told)
     assert tomllib.loads(published_text("z1"))["left_out"]
 
@@ -104,12 +111,13 @@ def test_an_item_that_cannot_be_shown_costs_no_other_item(tmp_path: Path) -> Non
     for item, data in zip(items, ({"answer": 1}, {"other": 2}), strict=False):
         stored = shelf.Made(False, "ok", "", 0.0, "v", "m", data)
         shelf.keep(tmp_path, "sr4c", item, stored)
-    _, faults = page.render(str(tmp_path), "sr4c", items)
-    assert faults == {
+    chapter = page.render(str(tmp_path), "sr4c", items)
+    assert chapter.faults == {
         "Table 2": "failed: cannot be shown: KeyError: 'answer'",
         "Table 3": "not made: ",
     }
-    assert "<td>1</td>" in (tmp_path / "papers" / "sr4c.html").read_text("utf-8")
+    assert [v.outcome for v in chapter.verdicts["Table 1"]] == [held(False)]
+    assert '<td class="text">1</td>' in (tmp_path / "papers" / "sr4c.html").read_text("utf-8")
 
 
 @pytest.mark.parametrize(

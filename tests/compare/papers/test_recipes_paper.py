@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import json
+import re
 import shutil
 import subprocess
 import sys
@@ -68,7 +69,7 @@ from typing import Any
 from compare.audit.paper import load_papers, settings
 from compare.audit.paper.digits import values
 from compare.benchmark.protocol import Budget
-from compare.papers.item import Item, Shown, Table
+from compare.papers.item import Item, ItemVerdict, Shown, Table
 from compare.papers.measure import summary, trials
 from compare.papers.verdicts import same_times
 from compare.papers.words import seconds
@@ -88,7 +89,8 @@ def show_table_3(data: dict[str, Any]) -> Shown:
     found = data["found"]["median"]
     table = Table(["", "total [s]"], [["printed", seconds(data["printed"])], ["PSO", seconds(found)]])
     outcome = same_times([data["printed"]], [found or 0.0])
-    return Shown([table], [f"{outcome}: {seconds(data['printed'])} s against {seconds(found)} s."])
+    remarks = [f"{outcome}: {seconds(data['printed'])} s against {seconds(found)} s."]
+    return Shown([table], remarks, [ItemVerdict("the total", outcome)])
 
 
 TABLE_3 = Item("Table 3", "times of joint 1", make_table_3, show_table_3, "Read as printed.")
@@ -144,10 +146,11 @@ def test_add_a_paper_then_a_table_of_it(copy: Path) -> None:
     registry.write_text(text)
 
     made = ("kim_2026", "--item", "Table 3", "--out", "report", "--jobs", "1")
-    call(copy, "-m", "compare.papers", *made)
+    assert "made-up: Table 3: " in call(copy, "-m", "compare.papers", *made)
     stored = json.loads((copy / "report" / "papers" / "made-up" / "table-3.json").read_text())
     assert stored["status"] == "ok"
     assert stored["data"]["printed"] == pytest.approx(3.02)
     page = (copy / "report" / "papers" / "made-up.html").read_text("utf-8")
-    assert "Kim 2026: one joint" in page
+    assert "one joint, 3-5-3, PSO" in page
     assert "eproduced: 3.0200 s against" in page
+    assert re.search(r"<h1>Kim 2026: [01] of 1 printed results are reproduced", page)

@@ -12,7 +12,7 @@ from matplotlib.figure import Figure
 
 from compare.benchmark.grade import Graded
 from compare.benchmark.protocol import Budget
-from compare.papers.item import Item, Shown, Table
+from compare.papers.item import Item, ItemVerdict, Shown, Table
 from compare.papers.measure import trials
 from compare.papers.pictures.descent import descent, draw_descent
 from compare.papers.verdicts import Reproduction, same_order, same_times
@@ -97,7 +97,7 @@ def show_fig_10(data: dict[str, Any]) -> Shown:
             f"({', '.join(f'{name} {mean:.4f} s' for name, mean in means.items())}) lies within 1 % of it."
         )
     table = Table(header, lines, caption, range(1, len(header)))
-    return Shown([fig_10(data), table], remarks)
+    return Shown([fig_10(data), table], remarks, [ItemVerdict("that MIPSO ends below PSO", outcome)])
 
 
 @styled

@@ -7,9 +7,10 @@ from typing import Any
 import numpy as np
 
 from compare.audit.paper.digits import halves, values
-from compare.papers.item import Item, Shown
+from compare.papers.item import Item, ItemVerdict, Shown
 from compare.papers.measure import spline
 from compare.papers.pictures.paths import length, path_views, tool_path
+from compare.papers.verdicts import held
 from compare.papers.wang_2025.motions import BEST, RULE, STYLES, label, motions
 from compare.papers.wang_2025.paper import paper
 from formulations import load
@@ -40,8 +41,10 @@ def show_path(data: dict[str, Any]) -> Shown:
     figure = path_views(arm, drawn, np.array(data["points"]), ["1", "2", "3", "4"])
     resolved, printed_ = (data["misses"][name] for name in ("resolved", "printed"))
     best, rule = found[BEST], found[RULE]
+    passed = held(max(resolved) <= 2.0 * data["rounding"])
     remarks = [
-        f"By forward kinematics with the joint offsets, the tool passes the four points of Table 4 within "
+        f"That the path passes the four points of Table 4 is {passed.inside}: by forward kinematics with the "
+        "joint offsets, the tool passes them within "
         f"{1e3 * max(resolved):.2f} mm. Rounding of the points alone allows {1e3 * data['rounding']:.2f} mm, "
         "and rounding of the angles as much again.",
         f"The other reading, Table 1 as printed and without offsets, misses the points by "
@@ -49,7 +52,7 @@ def show_path(data: dict[str, Any]) -> Shown:
         f"The path of the printed result is {rule['length']:.3f} m long, the path of the optimum "
         f"{best['length']:.3f} m. Both pass the same points; the shape depends on the ratio of the times.",
     ]
-    return Shown([figure], remarks)
+    return Shown([figure], remarks, [ItemVerdict("that the path passes the points of Table 4", passed)])
 
 
 FIGURE_11 = Item(

@@ -6,8 +6,8 @@ from typing import Any
 
 import numpy as np
 
-from compare.papers.item import Item, Shown, Table
-from compare.papers.verdicts import agrees, smooth
+from compare.papers.item import Item, ItemVerdict, Shown, Table
+from compare.papers.verdicts import agrees, held, smooth
 from compare.papers.wang_2025.motions import BEST, PLAN, RULE, STYLES, curves, motions
 from compare.papers.wang_2025.paper import fitting_limits, paper
 from compare.papers.words import above, listed
@@ -51,11 +51,12 @@ def show_verification(data: dict[str, Any]) -> Shown:
         range(1, len(header)),
     )
     joined = smooth(*rule["jumps"])
+    kept = rule["digits"] != "no"
     remarks = [
         f"The printed result takes {rule['seconds']:.4f} s. Position, velocity and acceleration are "
         f"{'continuous' if joined else 'not continuous'} at the waypoints, {agrees(joined)} (largest jump "
         f"{max(rule['jumps']):.1g} deg, deg/s or deg/s²).",
-        f"It keeps the limits of Table 6: {rule['digits']} ({rule['most']}), {agrees(rule['digits'] != 'no')}.",
+        f"It keeps the limits of Table 6: {rule['digits']} ({rule['most']}), {agrees(kept)}.",
         f"Sec. 4.3.2 says that the acceleration grows markedly at joints {listed(SAID)}. Against the plan of "
         f"2 s a segment it grows {_most(grown)}. Of the limits of acceleration that fit Table 9 it reaches "
         f"{_most(beyond)}.",
@@ -63,15 +64,31 @@ def show_verification(data: dict[str, Any]) -> Shown:
         f"{above(best['seconds'], rule['seconds'])} against the printed result and "
         f"{above(best['seconds'], plan['seconds'])} against the plan.",
     ]
-    return Shown([curves(found), table], remarks)
+    most = f"that the acceleration grows most at joints {listed(SAID)}"
+    verdicts = [
+        ItemVerdict("that the motion is continuous at the waypoints", held(joined)),
+        ItemVerdict("that it keeps the limits of Table 6", held(kept)),
+        ItemVerdict(f"{most}, against the plan", held(_where(grown) == SAID)),
+        ItemVerdict(f"{most}, against the limits that fit Table 9", held(_where(beyond) == SAID)),
+    ]
+    return Shown([curves(found), table], remarks, verdicts)
+
+
+def _order(factors: list[float]) -> list[int]:
+    """Joints, that with the largest factor first."""
+    return sorted(range(1, len(factors) + 1), key=lambda joint: -factors[joint - 1])
+
+
+def _where(factors: list[float]) -> tuple[int, ...]:
+    """Return the joints with the largest factors, as many as the text names."""
+    return tuple(sorted(_order(factors)[: len(SAID)]))
 
 
 def _most(factors: list[float]) -> str:
     """Which joints have the largest factors, and whether the text names these."""
-    order = sorted(range(1, len(factors) + 1), key=lambda joint: -factors[joint - 1])
-    first = sorted(order[: len(SAID)])
+    order, first = _order(factors), _where(factors)
     shown = [f"{factors[joint - 1]:.2f} times at joint {joint}" for joint in order[: len(SAID) + 1]]
-    return f"{listed(shown)}: most at joints {listed(first)}, {agrees(first == list(SAID))}"
+    return f"{listed(shown)}: most at joints {listed(first)}, {agrees(first == SAID)}"
 
 
 FIGURES_17_19 = Item(

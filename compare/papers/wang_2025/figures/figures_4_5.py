@@ -12,8 +12,8 @@ import numpy as np
 from matplotlib.figure import Figure
 
 from compare.audit.paper import settings
-from compare.papers.item import Item, Shown, Table
-from compare.papers.verdicts import more_often, yes_no
+from compare.papers.item import Item, ItemVerdict, Shown, Table
+from compare.papers.verdicts import held, more_often, seen_in_pairs, yes_no
 from compare.report.style import BLACK, BLUE, GREEN, GREY, ORANGE, VERMILION, styled
 from formulations.problem.arrays import Array
 from metaheuristics.swarms.mipso import learning_factors, printed_inertia, resolved_inertia
@@ -108,24 +108,24 @@ def show_tent(data: dict[str, Any]) -> Shown:
     )
     tent, random, once = (data["scatter"][name][1] for name in names)
     quarter_random, quarter_orbit = data["scatter"][names[1]][0], data["scatter"][names[0]][2]
+    clear = quarter_random > quarter_orbit
+    outcome = seen_in_pairs(data["pairs"], data["starts"], clear=clear)
     remarks = [
-        "The paper shows the population of the tent map as the more even one. Reproduced: of "
+        "The paper shows the population of the tent map as the more even one. "
+        f"{outcome}: of "
         f"{data['starts']} pairs of populations it is the more even one in {100 * data['pairs']:.0f} %, "
         f"{more_often(data['pairs'], data['starts'])} than the random one (50 % is no difference). The median "
         f"scatter is {tent:.2f} against {random:.2f}; independent numbers have about {data['expected']:.2f}.",
         f"A quarter of the random populations scatters by less than {quarter_random:.2f}, a quarter of the "
         f"orbits by more than {quarter_orbit:.2f}: a single pair of histograms, as printed, "
-        + (
-            "decides nothing."
-            if quarter_random <= quarter_orbit
-            else "is enough to tell them apart in most cases."
-        ),
+        + ("is enough to tell them apart in most cases." if clear else "decides nothing."),
         f"The other reading maps each random number once and scatters by {once:.2f}: uniform numbers stay "
         "uniform.",
         f"With the peak at 0.5 instead of {data['alpha']}, {100 * data['zeros']:.0f} % of the points are 0 in "
         "double precision, since the orbit loses one bit at each step.",
     ]
-    return Shown([tent_figure(data), table], remarks)
+    verdict = ItemVerdict("that the tent map's population is the more even one", outcome)
+    return Shown([tent_figure(data), table], remarks, [verdict])
 
 
 @styled
@@ -189,7 +189,12 @@ def show_factors(data: dict[str, Any]) -> Shown:
         f"{resolved[len(w) // 2]:.3f} half way to {resolved[-1]:g}; this falls "
         f"{'slowly first and fast then' if slow_then_fast else 'in another way than the text says'}.",
     ]
-    return Shown([factors_figure(data)], remarks)
+    verdicts = [
+        ItemVerdict("that c1 falls and c2 rises", held(shape)),
+        ItemVerdict("that the inertia of eq. 15 falls, as printed", held(falls)),
+        ItemVerdict("that it falls slowly first and fast then, with k_max/k", held(slow_then_fast)),
+    ]
+    return Shown([factors_figure(data)], remarks, verdicts)
 
 
 @styled

@@ -6,8 +6,8 @@ from typing import Any
 
 import numpy as np
 
-from compare.papers.item import Item, Shown, Table
-from compare.papers.verdicts import agrees, smooth, yes_no
+from compare.papers.item import Item, ItemVerdict, Shown, Table
+from compare.papers.verdicts import agrees, held, smooth, yes_no
 from compare.papers.wang_2025.motions import PLAN, curves, motions
 from formulations import load
 
@@ -44,7 +44,8 @@ def show_curves(data: dict[str, Any]) -> Shown:
         f"{max(plan['jumps']):.1g} deg, deg/s or deg/s²).",
         "The curves of the result, which the paper exports from the controller, are Figs 17-19.",
     ]
-    return Shown([curves(data["motions"]), Table(header, rows, "", range(1, 7))], remarks)
+    verdict = ItemVerdict("that the plan is continuous at the waypoints", held(joined))
+    return Shown([curves(data["motions"]), Table(header, rows, "", range(1, 7))], remarks, [verdict])
 
 
 FIGURES_7_9 = Item(

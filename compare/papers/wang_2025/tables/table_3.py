@@ -7,7 +7,8 @@ from typing import Any
 
 import numpy as np
 
-from compare.papers.item import Item, Shown, Table
+from compare.papers.item import Item, ItemVerdict, Shown, Table
+from compare.papers.verdicts import SAME, Reproduction, held
 from compare.papers.wang_2025 import ablation
 from compare.papers.wang_2025.ablation import StrategyVerdict
 from compare.papers.wang_2025.cec2017 import ablation_figure, on_functions
@@ -63,17 +64,19 @@ def show_ablation(data: dict[str, Any]) -> Shown:
         shown = "no verdict" if o["verdict"] == StrategyVerdict.undecided else o["verdict"]
         remarks.append(
             f"Without {strategy}: the printed factors are all at least {least:.2f}. Reproduced: "
-            f"{on_functions(summary, swarm)}. Over all functions: {shown} (A12 {o['effect']:.2f}, "
+            f"{on_functions(summary, swarm)}. Over all functions: {shown} (that it helps is "
+            f"{_HELPS[o['verdict']].inside}; A12 {o['effect']:.2f}, "
             f"{low:.2f} to {high:.2f}, p = {o['p_holm']:.2g}; geometric mean of the factors over f - f* "
             f"{o['geometric_mean']:.3f})."
         )
     pairs = [(e["raw"], e["printed"], e["factor"]) for fs in entries.values() for e in fs.values()]
     apart = [abs(raw - printed) for raw, printed, _ in pairs]
     larger = sum(abs(factor - 1.0) > abs(raw - 1.0) for raw, _, factor in pairs)
+    factors = _factors(entries, protocol)
     remarks.append(
-        f"The raw factors, the printed reading, lie within {max(apart):.2f} of the printed ones, half of them "
-        f"within {float(np.median(apart)):.2f}. They carry CEC2017's bias of 100 i: without it, {larger} of "
-        f"{len(pairs)} factors lie farther from 1."
+        f"The printed factors are {factors.inside}: the raw ones, the printed reading, lie within "
+        f"{max(apart):.2f} of them, half within {float(np.median(apart)):.2f}. They carry CEC2017's bias of "
+        f"100 i: without it, {larger} of {len(pairs)} factors lie farther from 1."
     )
     return Shown(
         [
@@ -81,7 +84,29 @@ def show_ablation(data: dict[str, Any]) -> Shown:
             ablation_figure(summary, protocol),
         ],
         remarks,
+        [
+            *(
+                ItemVerdict(f"a gain by {strategy}", _HELPS[summary["overall"][swarm]["verdict"]])
+                for swarm, strategy in ablation.STRATEGIES.items()
+            ),
+            ItemVerdict("the factors of eq. 19, raw as printed", factors),
+        ],
     )
+
+
+_HELPS = {
+    StrategyVerdict.helps: Reproduction.REPRODUCED,
+    StrategyVerdict.hurts: Reproduction.NOT,
+    StrategyVerdict.none: Reproduction.NOT,
+    StrategyVerdict.undecided: Reproduction.UNDECIDED,
+}
+
+
+def _factors(entries: dict[str, Any], protocol: ablation.Protocol) -> Reproduction:
+    """Judge the printed factors; runs of another size than the paper's do not refute them."""
+    every = [e for functions in entries.values() for e in functions.values()]
+    near = all(abs(e["raw"] / e["printed"] - 1.0) <= SAME for e in every)
+    return held(near) if near or protocol == ablation.FULL else Reproduction.UNDECIDED
 
 
 def _size(protocol: ablation.Protocol) -> str:

@@ -15,8 +15,8 @@ from matplotlib.figure import Figure
 from scipy import stats
 
 from compare.audit.motion.minima import impossible
-from compare.papers.item import Item, Shown, Table
-from compare.papers.verdicts import AT_A_LIMIT, agrees, same_gain
+from compare.papers.item import Item, ItemVerdict, Shown, Table
+from compare.papers.verdicts import AT_A_LIMIT, Reproduction, agrees, held
 from compare.papers.wang_2025.joint_1 import (
     FEW,
     IN_FORCE,
@@ -33,7 +33,13 @@ from compare.papers.wang_2025.joint_1 import (
     summarise,
 )
 from compare.papers.wang_2025.paper import ALONE, SWARM, paper
-from compare.papers.wang_2025.tables.table_8_boxes import box_remarks, box_table, make_boxes
+from compare.papers.wang_2025.tables.table_8_boxes import (
+    box_remarks,
+    box_table,
+    box_verdicts,
+    gain_over_pso,
+    make_boxes,
+)
 from compare.papers.words import above, listed, seconds
 from compare.report.style import BLACK, BLUE, GREY, ORANGE, VERMILION, styled
 from compare.screen import table
@@ -181,7 +187,47 @@ def show_table_8(data: dict[str, Any]) -> Shown:
             lines.append([name, limit, runs, *described, f"{facts['bound']:.6f}"])
     second = Table(header, lines, "Every run; the printed runs against either limit.", range(1, 9))
     remarks = [*_remarks_8(data, printed_means), *box_remarks(data, printed_means)]
-    return Shown([first, second, box_table(data), table8_figure(rows, found)], remarks)
+    verdicts = [*_verdicts_8(data, printed_means), *box_verdicts(data, printed_means)]
+    return Shown([first, second, box_table(data), table8_figure(rows, found)], remarks, verdicts)
+
+
+def _verdicts_8(data: dict[str, Any], printed_means: dict[str, float]) -> list[ItemVerdict]:
+    both = [
+        (limit, f"{data['summary'][limit]['acceleration']:.0f} deg/s²") for limit in (IN_FORCE, TABLE_6)
+    ]
+    return [
+        *(
+            ItemVerdict(f"that all runs of {name} are possible, {both[0][1]}", held(not n))
+            for name, n in data["impossible"].items()
+        ),
+        *(
+            ItemVerdict(
+                f"the gain of MIPSO over PSO, {words}",
+                gain_over_pso(_means(data["summary"][limit]), printed_means),
+            )
+            for limit, words in both
+        ),
+        *(
+            ItemVerdict(
+                f"that MIPSO is more stable than PSO, {words}",
+                _steadier(data["summary"][limit], data["scatter"][limit]),
+            )
+            for limit, words in both
+        ),
+    ]
+
+
+def _means(facts: dict[str, Any]) -> dict[str, float | None]:
+    """Mean of all runs of each swarm under one limit [s]."""
+    return {swarm: entry["all"]["mean"] for swarm, entry in facts["swarms"].items()}
+
+
+def _steadier(facts: dict[str, Any], p: float) -> Reproduction:
+    """Judge whether MIPSO scatters less than PSO; not decided where a test shows no difference."""
+    mine, other = (facts["swarms"][swarm]["all"]["deviation"] for swarm in (SWARM, "pso"))
+    if mine is None or other is None or p >= ALPHA:
+        return Reproduction.UNDECIDED
+    return held(mine < other)
 
 
 def _remarks_8(data: dict[str, Any], printed_means: dict[str, float]) -> list[str]:
@@ -203,23 +249,22 @@ def _remarks_8(data: dict[str, Any], printed_means: dict[str, float]) -> list[st
         f"is {above(stated['swarms'][SWARM]['all']['worst'], stated['bound'])}.",
         _impossible(data["impossible"], implied),
     ]
-    gain = 1.0 - printed_means["MIPSO"] / printed_means["PSO"]
     for facts in (force, stated):
-        means = {swarm: entry["all"]["mean"] for swarm, entry in facts["swarms"].items()}
-        if means[SWARM] is None or means["pso"] is None:
+        means = _means(facts)
+        mine = means[SWARM]
+        if mine is None or means["pso"] is None:
             remarks.append(
                 f"Under {facts['acceleration']:.0f} deg/s² no run of MIPSO or of PSO is feasible."
             )
             continue
-        outcome = same_gain(gain, 1.0 - means[SWARM] / means["pso"])
         remarks.append(
-            f"The gain of MIPSO over PSO is {outcome.inside} under {facts['acceleration']:.0f} deg/s². "
-            "Printed: "
+            f"The gain of MIPSO over PSO is {gain_over_pso(means, printed_means).inside} under "
+            f"{facts['acceleration']:.0f} deg/s². Printed: "
             f"{printed_means['PSO'] - printed_means['MIPSO']:.4f} s. Mean of {data['runs']} reproduced runs: "
             + "; ".join(
-                f"{means[swarm] - means[SWARM]:+.4f} s over {name}"
+                f"{mean - mine:+.4f} s over {name}"
                 for swarm, name in RIVALS.items()
-                if means[swarm] is not None
+                if (mean := means[swarm]) is not None
             )
             + "."
         )
@@ -248,10 +293,15 @@ def _stability(summary: dict[str, Any], scatter: dict[str, float]) -> str:
         facts, p = summary[limit], scatter[limit]
         mine, other = (facts["swarms"][swarm]["all"]["deviation"] for swarm in (SWARM, "pso"))
         if mine is not None and other is not None:
-            outcome = agrees(mine < other) if p < ALPHA else "which shows no difference"
+            outcome = _steadier(facts, p)
+            told = (
+                "which shows no difference"
+                if outcome is Reproduction.UNDECIDED
+                else agrees(outcome is Reproduction.REPRODUCED)
+            )
             text += (
                 f" Under {facts['acceleration']:.0f} deg/s² the reproduced runs scatter by {mine:.4f} s and "
-                f"{other:.4f} s (Brown-Forsythe test, p = {p:.2g}), {outcome}."
+                f"{other:.4f} s (Brown-Forsythe test, p = {p:.2g}), {told}."
             )
     return text
 

@@ -6,8 +6,8 @@ from typing import Any
 
 import numpy as np
 
-from compare.papers.item import Table
-from compare.papers.verdicts import same_gain
+from compare.papers.item import ItemVerdict, Table
+from compare.papers.verdicts import Reproduction, same_gain
 from compare.papers.wang_2025.joint_1 import IN_FORCE, RIVALS, TABLE_6, cells, repeat, statistics
 from compare.papers.wang_2025.paper import SWARM, boxes, in_words
 from compare.papers.words import above, listed, seconds
@@ -78,18 +78,14 @@ def box_remarks(data: dict[str, Any], printed_means: dict[str, float]) -> list[s
     -------
     list of str
     """
-    gain = 1.0 - printed_means["MIPSO"] / printed_means["PSO"]
-    groups: dict[tuple[float, float, str], dict[str, Any]] = {}
-    for entry in data["boxes"]:
-        groups.setdefault((*entry["box"], entry["limit"]), {})[entry["swarm"]] = entry
     remarks = []
-    for (low, high, limit), swarms in groups.items():
+    for (low, high, limit), swarms in _groups(data).items():
         facts, mean = data["summary"][limit], swarms[SWARM]["mean"]
         start = f"In a search box of {in_words(low, high)}, under {facts['acceleration']:.0f} deg/s²,"
         if mean is None or swarms["pso"]["mean"] is None:
             remarks.append(f"{start} no run of MIPSO or of PSO is feasible.")
             continue
-        outcome = same_gain(gain, 1.0 - mean / swarms["pso"]["mean"])
+        outcome = gain_over_pso(_means(swarms), printed_means)
         rivals = "; ".join(
             f"{swarms[swarm]['mean'] - mean:+.4f} s over {name}"
             for swarm, name in RIVALS.items()
@@ -102,3 +98,60 @@ def box_remarks(data: dict[str, Any], printed_means: dict[str, float]) -> list[s
             + (f" Without a feasible motion, and not in the means: {listed(failed)}." if failed else "")
         )
     return remarks
+
+
+def box_verdicts(data: dict[str, Any], printed_means: dict[str, float]) -> list[ItemVerdict]:
+    """Judge the printed gain over PSO in each other reading of the search box.
+
+    Parameters
+    ----------
+    data : dict
+        Of ``make_table_8``.
+    printed_means : dict
+        Printed mean of each method [s].
+
+    Returns
+    -------
+    list of ItemVerdict
+    """
+    return [
+        ItemVerdict(
+            f"the gain of MIPSO over PSO, {data['summary'][limit]['acceleration']:.0f} deg/s², in a box of "
+            f"{in_words(low, high)}",
+            gain_over_pso(_means(swarms), printed_means),
+        )
+        for (low, high, limit), swarms in _groups(data).items()
+    ]
+
+
+def _groups(data: dict[str, Any]) -> dict[tuple[float, float, str], dict[str, Any]]:
+    """Swarms by box [s] and limit."""
+    groups: dict[tuple[float, float, str], dict[str, Any]] = {}
+    for entry in data["boxes"]:
+        groups.setdefault((*entry["box"], entry["limit"]), {})[entry["swarm"]] = entry
+    return groups
+
+
+def _means(swarms: dict[str, Any]) -> dict[str, float | None]:
+    return {swarm: entry["mean"] for swarm, entry in swarms.items()}
+
+
+def gain_over_pso(means: dict[str, float | None], printed_means: dict[str, float]) -> Reproduction:
+    """Judge the printed gain of MIPSO over PSO.
+
+    Parameters
+    ----------
+    means : dict
+        Mean of each swarm [s]; None if it has no feasible run.
+    printed_means : dict
+        Printed mean of each method [s].
+
+    Returns
+    -------
+    Reproduction
+        Not decided where one of both has no feasible run.
+    """
+    mine, other = means[SWARM], means["pso"]
+    if mine is None or other is None:
+        return Reproduction.UNDECIDED
+    return same_gain(1.0 - printed_means["MIPSO"] / printed_means["PSO"], 1.0 - mine / other)
