@@ -38,6 +38,7 @@ from compare.commands.options import (
 )
 from compare.engines import Engine, start
 from compare.files import output_folder
+from compare.papers.making import draw_again
 from compare.report.page import render
 from compare.report.suite_page import render_suite
 from compare.studies import proofs, study
@@ -163,6 +164,7 @@ def compare_all(
                 if cases is None:
                     _studies(pool, size, wanted, store, resume=resume)
                 page = render(pool, store.folder, problems, settings)
+                draw_again(store.folder, jobs)
     except BelowBoundError as error:
         print(f"error: {error}", file=sys.stderr)
         return FAILED

@@ -12,6 +12,7 @@ from compare.benchmark.suite import Instance
 from compare.commands import DONE
 from compare.commands.options import Jobs
 from compare.engines import workers
+from compare.papers.making import draw_again
 from compare.report.page import render
 from compare.report.suite_page import render_suite
 from formulations import InputError
@@ -39,5 +40,6 @@ def report(folder: Annotated[str, Parameter(name="DIR")], /, *, jobs: Jobs = 2) 
         problems = {one.name: one.problem for one in instances}
         with workers(jobs) as pool:
             page = render(pool, store.folder, problems, settings)
+        draw_again(store.folder, jobs)
     print(f"report: {page}")
     return DONE

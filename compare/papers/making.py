@@ -128,3 +128,20 @@ def draw(folder: Path, chosen: dict[str, list[Item]], jobs: int) -> list[Chapter
     with workers(min(jobs, len(calls))) as pool:
         chapters = {made.key: made for made in each(pool, "chapters", page.render, calls)}
     return [chapters[paper] for paper in chosen]
+
+
+def draw_again(folder: Path, jobs: int) -> None:
+    """Write the chapters that are there anew, so that they lead back to a report that has joined them.
+
+    Parameters
+    ----------
+    folder : Path
+        Folder of the report.
+    jobs : int
+        Worker processes.
+    """
+    there = {
+        key: list(items) for key, items in ITEMS.items() if (folder / "papers" / f"{key}.html").exists()
+    }
+    if there:
+        draw(folder, there, jobs)
