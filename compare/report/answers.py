@@ -9,7 +9,7 @@ from compare.benchmark.ladders import LadderRecord
 from compare.benchmark.records.rows import Row
 from compare.benchmark.summaries import Summary, as_papers_run, best_claim, best_row
 from compare.report.overview import AT_OPTIMUM
-from compare.report.papers_at_a_glance import PaperAtAGlance
+from compare.report.papers_at_a_glance import CANNOT_BE_JUDGED, PaperAtAGlance
 from compare.report.words import percent
 
 
@@ -134,7 +134,7 @@ def _claims(rows: Sequence[Row]) -> Answer | None:
 
 def _papers(papers: Sequence[PaperAtAGlance]) -> Answer | None:
     """What the papers' arms could really do beside what is published."""
-    judged = [paper for paper in papers if paper.published is not None]
+    judged = [p for p in papers if p.published is not None and p.keeps != CANNOT_BE_JUDGED]
     if not judged:
         return None
     broken = [paper for paper in judged if paper.stretch]

@@ -12,6 +12,8 @@ from compare.benchmark.ladders import LadderRecord
 from compare.benchmark.records.rows import BoundProof
 from compare.benchmark.summaries import bound_of
 
+CANNOT_BE_JUDGED = "cannot be judged"
+
 
 @dataclass(frozen=True)
 class PaperAtAGlance:
@@ -117,9 +119,9 @@ def _line(
 def _keeps(data: Mapping[str, Any], by: str, best: KnownTime | None) -> str:
     """Whether the published motion keeps its limits, in words."""
     if best is None or best.keeps is None:
-        return "cannot be judged"
+        return CANNOT_BE_JUDGED
     whole = (m["feasible"] for m in data["motions"] if m["joint"] is None and m["by"] == by)
-    word = next(whole, "cannot be judged")
+    word = next(whole, CANNOT_BE_JUDGED)
     if word == "no limits":
         return "prints none; " + ("keeps" if best.keeps else "breaks") + " those assumed"
     return "as far as its digits tell" if word == "within rounding" else str(word)

@@ -137,8 +137,9 @@ class Shown:
     faults: list[str] = field(default_factory=list)
 
     def figure(self, of: str, kind: str) -> Locator:
-        """One chart, scrolled into view and drawn."""
+        """One chart, scrolled into view and drawn; the part that it stands in is opened."""
         found = self.page.locator(f'figure.chart[data-of="{of}"][data-kind="{kind}"]')
+        found.evaluate("(f) => { for (let one = f; one; one = one.parentElement) if (one.tagName === 'DETAILS') one.open = true; }")
         found.scroll_into_view_if_needed()
         self.page.wait_for_selector(f'figure[data-of="{of}"][data-kind="{kind}"][data-drawn]')
         return found
@@ -150,7 +151,8 @@ class Shown:
         return found
 
     def draw_everything(self) -> None:
-        """Draw every chart, as scrolling through the page would."""
+        """Open every part and draw every chart, as scrolling through the page would."""
+        self.page.evaluate("() => { for (const part of document.querySelectorAll('details')) part.open = true; }")
         self.page.evaluate("() => { for (const figure of figures) if (!figure.dataset.drawn) draw(figure); }")
 
 

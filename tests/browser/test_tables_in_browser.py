@@ -172,7 +172,7 @@ def test_names_from_files_are_text_and_never_elements(light: Shown) -> None:
     assert page.locator("img[src=x]").count() == 0
     assert page.evaluate("() => [...document.scripts].filter((s) => s.textContent.startsWith('alert')).length") == 0
     assert page.locator("main b", has_text=re.compile("^bold$")).count() == 0
-    heading = page.locator("h2#planted")
+    heading = page.locator("#planted")
     assert heading.inner_text() == f"planted: {TITLE}"
     assert heading.locator("*").count() == 0
     body = page.locator("body").inner_text()

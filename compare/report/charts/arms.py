@@ -5,13 +5,12 @@ from __future__ import annotations
 from collections.abc import Iterable, Mapping
 from typing import Any
 
-from compare.audit.motion.printed_motion import Kept
 from compare.benchmark.ladders import LadderRecord
 from compare.benchmark.records.rows import Row
 from compare.benchmark.summaries import best_row
-from compare.report.papers_at_a_glance import PaperAtAGlance
+from compare.report.papers_at_a_glance import CANNOT_BE_JUDGED, PaperAtAGlance
 
-_KEPT = (Kept.YES, Kept.WITHIN_ROUNDING)
+_KEPT = ("yes", "as far as its digits tell")
 
 
 def arms_chart(
@@ -50,7 +49,8 @@ def arms_chart(
         if fastest is not None:
             marks.append(_mark("fastest", "fastest motion known", fastest, unit))
         paper = printed.get(case)
-        if paper is not None and paper.published is not None:
+        # what cannot be judged was published for waypoints that are not printed: another task
+        if paper is not None and paper.published is not None and paper.keeps != CANNOT_BE_JUDGED:
             broken = paper.stretch is not None or paper.leaves_position_limits
             kind = "broken" if broken else "kept" if paper.keeps in _KEPT else "unjudged"
             words = (

@@ -45,7 +45,7 @@ def progress_chart(
     groups: dict[tuple[str, str], list[Row]] = {}
     for row in rows:
         groups.setdefault((row.variant, row.swarm), []).append(row)
-    curves = []
+    curves: list[dict[str, Any]] = []
     for (variant, swarm), mine in groups.items():
         runs = [traces[row.key] for row in mine if row.key in traces]
         if not runs or optimum is None:

@@ -7,7 +7,7 @@ const MARKS = {
   swarm: ["purple", "circle-open", "best swarm"],
   broken: ["red", "x", "published, breaks limits"],
   kept: ["ink", "square", "published, keeps its limits"],
-  unjudged: ["ink", "square-open", "published, prints no limits or no durations"],
+  unjudged: ["ink", "square-open", "published, prints no limits"],
   slowed: ["orange", "square", "published, slowed down to keep them"],
 };
 
@@ -27,7 +27,7 @@ charts.arms = (figure, found) => {
   const most = Math.max(1.1, ...found.lines.flatMap((line) => line.marks.map((mark) => mark.ratio)));
   plot(figure, traces, layout({
     height: 130 + 46 * names.length, showlegend: true, shapes, hovermode: "closest",
-    xaxis: {title: {text: "total time, in units of the best motion of its family"}, range: [0, 1.05 * most], showgrid: false},
+    xaxis: {title: {text: fold("total time, in units of the best motion of its family", narrow(figure) ? 30 : 120)}, range: [0, 1.05 * most], showgrid: false},
     yaxis: {type: "category", categoryorder: "array", categoryarray: names, range: [names.length - 0.5, -0.5], showgrid: false},
     legend: {x: 0, y: 1.02, yanchor: "bottom"},
   }));

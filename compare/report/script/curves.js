@@ -44,9 +44,9 @@ charts.seeds = (figure, found) => {
   }));
   plot(figure, traces, layout({
     height: 130 + 26 * found.swarms.length, showlegend: true, annotations: lost,
-    xaxis: {...GAPS, title: {text: "gap to the best motion of the family; every seed is a mark, hollow: breaks limits as claimed"},
+    xaxis: {...GAPS, title: {text: fold("gap to the best motion of the family; every seed is a mark, hollow: breaks limits as claimed", narrow(figure) ? 34 : 120)},
             range: [-12.4, 1.5]},
-    yaxis: {tickvals: found.swarms.map((_, k) => k), ticktext: found.swarms.map(text),
+    yaxis: {tickvals: found.swarms.map((_, k) => k), ticktext: found.swarms.map((name) => fold(name, narrow(figure) ? 14 : 40)),
             range: [found.swarms.length - 0.5, -0.5]},
   }));
 };

@@ -57,10 +57,10 @@ charts.ladder = (figure, found) => {
          found.proved ? "no spline of the family" : "no spline known");
   }
   plot(figure, traces, layout({
-    height: 110 + 30 * lines.length, showlegend: true, shapes, annotations: notes,
+    height: (small ? 140 : 110) + (small ? 48 : 30) * lines.length, showlegend: true, shapes, annotations: notes,
     margin: {l: 10, r: 10, t: 24, b: 40},
     legend: {orientation: "h", x: 0, xref: "container", y: -0.02, yref: "container", yanchor: "bottom"},
-    xaxis: {title: {text: "total time [s]; in brackets: against the best of the family"},
+    xaxis: {title: {text: small ? "total time [s]" : "total time [s]; in brackets: against the best of the family"},
             range: [0, right * (small ? 1.6 : 1.32)], showgrid: false},
     yaxis: {categoryorder: "array", categoryarray: lines.map(name).reverse(), showgrid: false,
             tickfont: {size: small ? 11 : 13}},

@@ -83,6 +83,6 @@ charts.motion = (figure, found) => {
     height: 640, showlegend: true, shapes, hovermode: "x", ...axes,
     margin: {l: 70, r: 10, t: 10, b: 40},
     legend: {x: 0, y: 1.02, yanchor: "bottom"},
-    xaxis: {title: {text: `time [s]; ${text(name)}; dashed: limits; thick: over a limit`}, anchor: `y${found.quantities.length}`},
+    xaxis: {title: {text: fold(`time [s]; ${name}; dashed: limits; thick: over a limit`, narrow(figure) ? 34 : 120)}, anchor: `y${found.quantities.length}`},
   }));
 };

@@ -46,7 +46,7 @@ function layout(more = {}) {
   return made;
 }
 
-const config = {displaylogo: false, responsive: true, scrollZoom: false,
+const config = {displaylogo: false, responsive: false, scrollZoom: false,
                 modeBarButtonsToRemove: ["select2d", "lasso2d", "autoScale2d"],
                 toImageButtonOptions: {format: "svg"}};
 
@@ -95,8 +95,24 @@ const eye = new IntersectionObserver((entries) => {
 }, {rootMargin: "400px"});
 
 function drawAgain() {
-  for (const figure of figures) if (figure.dataset.drawn) draw(figure);
+  for (const figure of figures) {
+    if (!figure.dataset.drawn) continue;
+    if (figure.checkVisibility()) draw(figure);
+    else {  // in a closed part: when it is opened
+      delete figure.dataset.drawn;
+      eye.observe(figure);
+    }
+  }
 }
+
+// what fits a chart depends on its width, so plotly's own way to follow the window is not enough
+let width = innerWidth, waiting = 0;
+addEventListener("resize", () => {
+  if (innerWidth === width) return;  // a phone's bars come and go
+  width = innerWidth;
+  clearTimeout(waiting);
+  waiting = setTimeout(drawAgain, 100);
+});
 
 // light or dark: as the system asks, or as the button says
 function setTheme(theme) {
@@ -113,34 +129,35 @@ document.getElementById("theme").addEventListener("click", () => {
 });
 dark.addEventListener("change", () => setTheme(dark.matches ? "dark" : "light"));
 
-// paper: light, everything open, every chart drawn
+// paper: light colours, and every chart that is in an open part
 let before = null;
 addEventListener("beforeprint", () => {
   before = root.dataset.theme;
-  for (const part of document.querySelectorAll("details:not([open])")) {
-    part.open = true;
-    part.dataset.printed = "yes";
-  }
   root.dataset.theme = "light";
-  for (const figure of figures) draw(figure);
+  for (const figure of figures) if (!figure.closest("details:not([open])")) draw(figure);
 });
-addEventListener("afterprint", () => {
-  for (const part of document.querySelectorAll("details[data-printed]")) {
-    part.open = false;
-    delete part.dataset.printed;
-  }
-  setTheme(before);
-});
+addEventListener("afterprint", () => setTheme(before));
 
-// a link into a closed part opens it
+// a link to a closed part, or to the heading above one, opens it
 function openTarget() {
-  const target = location.hash && document.getElementById(decodeURIComponent(location.hash.slice(1)));
+  const id = decodeURIComponent(location.hash.slice(1));
+  const target = id && document.getElementById(id);
+  if (!target) return;
   for (let part = target; part; part = part.parentElement) if (part.tagName === "DETAILS") part.open = true;
+  const below = document.querySelector(`details[data-of="${CSS.escape(id)}"]`);
+  if (below) below.open = true;
+  target.scrollIntoView();
+}
+for (const button of document.querySelectorAll("button[data-all]")) {
+  button.addEventListener("click", () => {
+    for (const part of document.querySelectorAll(`details.${button.dataset.all}`)) part.open = true;
+  });
 }
 addEventListener("hashchange", openTarget);
 
 addEventListener("DOMContentLoaded", () => {
   setTheme(dark.matches ? "dark" : "light");
+  if (matchMedia("(max-width: 60rem)").matches) document.querySelector("details.chapters").open = false;
   for (const figure of figures) eye.observe(figure);
   openTarget();
 });

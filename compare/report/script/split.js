@@ -21,12 +21,12 @@ charts.split = (figure, found) => {
   const notes = found.bars.map((bar) => {
     const ends = Object.values(bar.shares), whole = ends.at(-1)[1], bound = ends[0][1];
     return {x: whole, y: text(bar.name), xanchor: "left", xshift: 6, showarrow: false,
-            text: `${whole.toFixed(3)} s, ${(100 * (whole / bound - 1)).toPrecision(3)} % above`, font: {size: 12}};
+            text: `${whole.toFixed(3)} s,${small ? "<br>" : " "}${(100 * (whole / bound - 1)).toPrecision(3)} % above`, font: {size: 12}};
   });
   const longest = Math.max(...found.bars.map((bar) => Object.values(bar.shares).at(-1)[1]));
   plot(figure, traces, layout({
     height: 200 + 44 * found.bars.length, showlegend: true, annotations: notes,
-    xaxis: {title: {text: "time [s]"}, range: [0, longest * (small ? 1.7 : 1.3)]},
+    xaxis: {title: {text: "time [s]"}, range: [0, longest * (small ? 1.9 : 1.3)]},
     yaxis: {type: "category", range: [found.bars.length - 0.5, -0.5], showgrid: false},
     legend: {x: 0, y: 1.02, yanchor: "bottom"},
   }));
