@@ -143,6 +143,8 @@ def test_paper_is_light_and_shows_what_is_open_whole(open_page: Open, tmp_path: 
     page.emulate_media(media="print")
     assert page.locator("figure.chart").count() >= 11
     assert page.locator("figure.chart .canvas:not(:has(svg.main-svg))").count() == 0
+    widths = page.locator("figure.chart svg.main-svg").evaluate_all("(all) => all.map((one) => one.clientWidth)")
+    assert max(widths) <= 718  # A4 between the margins
     ink, ground = page.locator("body").evaluate(COLOUR)
     assert contrast(ink, "rgb(255, 255, 255)") > 10.0
     assert luminance(ground) > 0.9
@@ -153,7 +155,7 @@ def test_paper_is_light_and_shows_what_is_open_whole(open_page: Open, tmp_path: 
     page.emulate_media(media=None)
     page.evaluate("() => dispatchEvent(new Event('afterprint'))")
     assert page.evaluate("() => document.documentElement.dataset.theme") == "dark"
-    made = page.pdf(path=tmp_path / "report.pdf")
+    made = page.pdf(path=tmp_path / "report.pdf", format="A4", margin=dict.fromkeys(("left", "right", "top", "bottom"), "1cm"))
     assert made.startswith(b"%PDF")
     assert len(made) > 100_000
     assert shown.faults == []

@@ -50,9 +50,11 @@ const config = {displaylogo: false, responsive: false, scrollZoom: false,
                 modeBarButtonsToRemove: ["select2d", "lasso2d", "autoScale2d"],
                 toImageButtonOptions: {format: "svg"}};
 
+let paper = null;  // width of a chart on paper [px], while the page is printed: A4 and US letter hold it
+
 function plot(figure, traces, how) {
   const canvas = figure.querySelector(".canvas");
-  Plotly.react(canvas, traces, how, config);
+  Plotly.react(canvas, traces, {...how, width: paper ?? canvas.clientWidth}, config);
   for (const button of canvas.querySelectorAll(".modebar-btn")) button.setAttribute("tabindex", "-1");
 }
 
@@ -134,9 +136,13 @@ let before = null;
 addEventListener("beforeprint", () => {
   before = root.dataset.theme;
   root.dataset.theme = "light";
+  paper = 690;
   for (const figure of figures) if (!figure.closest("details:not([open])")) draw(figure);
 });
-addEventListener("afterprint", () => setTheme(before));
+addEventListener("afterprint", () => {
+  paper = null;
+  setTheme(before);
+});
 
 // a link to a closed part, or to the heading above one, opens it
 function openTarget() {
