@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import itertools
+import re
 from typing import Any
 
 import numpy as np
@@ -239,6 +240,26 @@ def test_the_ladder_shows_every_bound_at_its_time(light: Shown, small_report: Sm
     assert max(zone["x1"] for zone in zones) == pytest.approx(ladder["family"]["seconds"], rel=1e-6)
     box.uncheck()
     assert sum(len(trace["x"]) for trace in light.drawn(case, "ladder")["data"]) == few
+
+
+@pytest.mark.parametrize("case", ["cobot", "planted"])
+def test_where_the_time_goes_ends_at_the_motion_of_the_swarm(light: Shown, small_report: SmallReport, case: str) -> None:
+    chart = light.drawn(case, "split")
+    ladder = small_report.ladders[case]["ladder"]
+    notes = {note["y"]: note for note in chart["layout"]["annotations"]}
+    assert set(notes) == {f"pso, {coding}" for coding in CODINGS}
+    for coding in CODINGS:
+        times = [row.seconds for row in small_report.rows if (row.case, row.coding, row.swarm) == (case, coding, "pso")]
+        parts = [(x, y) for trace in chart["data"] for x, y in zip(trace["x"], trace["y"], strict=True) if x is not None]
+        end = max(x for x, y in parts if y == f"pso, {coding}")
+        note = notes[f"pso, {coding}"]
+        assert min(times) <= end <= max(times)
+        assert note["x"] == end
+        above = 100.0 * (end / ladder["free_form_lower"]["seconds"] - 1.0)
+        said, share = re.findall(r"[\d.]+(?:e\+\d+)?", note["text"])
+        assert float(said) == pytest.approx(end, abs=5e-4)
+        assert float(share) == pytest.approx(above, rel=6e-3)
+        assert chart["layout"]["xaxis"]["range"][1] > end
 
 
 def test_a_hover_over_a_planted_swarm_shows_its_name_as_text(light: Shown) -> None:

@@ -47,6 +47,17 @@ CUT_IN_CHARTS = """() => [...document.querySelectorAll("figure.chart")].flatMap(
   }).map((words) => `${figure.dataset.of} ${figure.dataset.kind}: ${words.textContent}`);
 })"""
 
+# labels of an axis that lie on each other or on its title
+OVERLAPS = """() => [...document.querySelectorAll("figure.chart")].flatMap((figure) => ["x", "y"].flatMap((axis) => {
+  const boxes = [...figure.querySelectorAll(`.${axis}tick text, .${axis}title`)].map((words) => [words.textContent, words.getBoundingClientRect()]);
+  const out = [];
+  boxes.forEach(([one, a], k) => boxes.slice(k + 1).forEach(([other, b]) => {
+    if (Math.min(a.right, b.right) - Math.max(a.left, b.left) > 2 && Math.min(a.bottom, b.bottom) - Math.max(a.top, b.top) > 2)
+      out.push(`${figure.dataset.of} ${figure.dataset.kind}: ${one} on ${other}`);
+  }));
+  return out;
+}))"""
+
 
 def luminance(colour: str) -> float:
     """Relative luminance of ``rgb(r, g, b)`` by WCAG 2."""
@@ -131,6 +142,7 @@ def test_nothing_is_clipped(light: Shown, width: int) -> None:
     assert page.evaluate("() => document.documentElement.scrollWidth <= innerWidth")
     assert page.evaluate(CLIPPED) == []
     assert page.evaluate(CUT_IN_CHARTS) == []
+    assert page.evaluate(OVERLAPS) == []
     page.set_viewport_size({"width": 1300, "height": 900})
 
 
@@ -145,6 +157,7 @@ def test_paper_is_light_and_shows_what_is_open_whole(open_page: Open, tmp_path: 
     assert page.locator("figure.chart .canvas:not(:has(svg.main-svg))").count() == 0
     widths = page.locator("figure.chart svg.main-svg").evaluate_all("(all) => all.map((one) => one.clientWidth)")
     assert max(widths) <= 718  # A4 between the margins
+    assert page.evaluate(CUT_IN_CHARTS) == []
     ink, ground = page.locator("body").evaluate(COLOUR)
     assert contrast(ink, "rgb(255, 255, 255)") > 10.0
     assert luminance(ground) > 0.9

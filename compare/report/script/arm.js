@@ -23,7 +23,7 @@ charts.arm = (figure, found) => {
                hovertemplate: "waypoint %{text}<extra></extra>", marker: {color: ink, size: 4, symbol: "diamond"}});
   const axis = {color: colour("soft"), gridcolor: colour("grid"), zerolinecolor: colour("grid"), showspikes: false};
   const canvas = figure.querySelector(".canvas");
-  const camera = canvas.layout?.scene?.camera ?? {eye: {x: 1.25, y: -1.45, z: 0.7}};
+  const camera = canvas.layout?.scene?.camera ?? {eye: narrow(figure) ? {x: 1.6, y: -1.85, z: 0.9} : {x: 1.25, y: -1.45, z: 0.7}};
   plot(figure, traces, layout({
     height: narrow(figure) ? 480 : 600, showlegend: true, margin: {l: 0, r: 0, t: 0, b: 0},
     legend: {x: 0, y: 1.02, yanchor: "bottom"},

@@ -22,8 +22,14 @@ function make(tag, attributes = {}, ...children) {
   return element;
 }
 
+let paper = null;  // width of a chart on paper [px], while the page is printed: A4 and US letter hold it
+
+function widthOf(figure) {
+  return paper ?? figure.querySelector(".canvas").clientWidth;
+}
+
 function narrow(figure) {
-  return figure.clientWidth < 560;
+  return widthOf(figure) < 560;
 }
 
 // what all charts have in common
@@ -50,11 +56,9 @@ const config = {displaylogo: false, responsive: false, scrollZoom: false,
                 modeBarButtonsToRemove: ["select2d", "lasso2d", "autoScale2d"],
                 toImageButtonOptions: {format: "svg"}};
 
-let paper = null;  // width of a chart on paper [px], while the page is printed: A4 and US letter hold it
-
 function plot(figure, traces, how) {
   const canvas = figure.querySelector(".canvas");
-  Plotly.react(canvas, traces, {...how, width: paper ?? canvas.clientWidth}, config);
+  Plotly.react(canvas, traces, {...how, width: widthOf(figure)}, config);
   for (const button of canvas.querySelectorAll(".modebar-btn")) button.setAttribute("tabindex", "-1");
 }
 
