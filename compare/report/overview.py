@@ -23,7 +23,7 @@ _ENDED = (
 
 
 @dataclass(frozen=True)
-class Column:
+class OverviewColumn:
     """A variant of a coding on one case, with the evaluations that each run has."""
 
     case: str
@@ -32,7 +32,7 @@ class Column:
 
 
 @dataclass(frozen=True)
-class Cell:
+class OverviewCell:
     """All seeds of one swarm in one column.
 
     Attributes
@@ -103,7 +103,7 @@ def to_best_known(
     return measured, best
 
 
-def columns(rows: Iterable[Row], cases: Iterable[str]) -> list[Column]:
+def columns(rows: Iterable[Row], cases: Iterable[str]) -> list[OverviewColumn]:
     """Return the columns of the table, case by case.
 
     Parameters
@@ -114,7 +114,7 @@ def columns(rows: Iterable[Row], cases: Iterable[str]) -> list[Column]:
 
     Returns
     -------
-    list of Column
+    list of OverviewColumn
     """
     budgets: dict[tuple[str, str], set[int]] = {}
     variants: dict[str, None] = {}
@@ -122,7 +122,7 @@ def columns(rows: Iterable[Row], cases: Iterable[str]) -> list[Column]:
         budgets.setdefault((row.case, row.variant), set()).add(row.budget)
         variants[row.variant] = None
     return [
-        Column(case, variant, " or ".join(f"{count:,}" for count in sorted(budgets[case, variant])))
+        OverviewColumn(case, variant, " or ".join(f"{count:,}" for count in sorted(budgets[case, variant])))
         for case in cases
         for variant in variants
         if (case, variant) in budgets
@@ -131,7 +131,7 @@ def columns(rows: Iterable[Row], cases: Iterable[str]) -> list[Column]:
 
 def cells(
     found: Mapping[tuple[str, str, str], Summary], rows: Iterable[Row]
-) -> dict[tuple[str, str, str], Cell]:
+) -> dict[tuple[str, str, str], OverviewCell]:
     """Return the cells by case, variant and swarm.
 
     Parameters
@@ -141,14 +141,14 @@ def cells(
 
     Returns
     -------
-    dict of (case, variant, swarm) to Cell
+    dict of (case, variant, swarm) to OverviewCell
     """
     failed: dict[tuple[str, str, str], dict[str, None]] = {}
     for row in rows:
         if row.status not in _ENDED:
             failed.setdefault((row.case, row.variant, row.swarm), {})[str(row.status)] = None
     return {
-        key: Cell(summary, shade(summary.gap), tuple(failed.get(key, ())))
+        key: OverviewCell(summary, shade(summary.gap), tuple(failed.get(key, ())))
         for key, summary in found.items()
     }
 

@@ -12,7 +12,8 @@ from compare.benchmark.known_times import key_of_paper, table_of_known_times
 from compare.benchmark.records.store import Store
 from compare.benchmark.run import audits
 from compare.engines import ThisProcess
-from compare.report.page import environment, papers_context
+from compare.report.frame import environment
+from compare.report.page import papers_context
 from compare.report.papers_at_a_glance import papers_at_a_glance
 from formulations import CASES, InputError, load
 
@@ -102,7 +103,9 @@ def test_audits_are_stored_kept_and_made_again(tmp_path: Path) -> None:
     context = papers_context(store, tmp_path, ["z1"])
     page = environment(tmp_path).get_template("papers.html.j2").render(context)
     assert 'href="papers/z1.html"' in page
-    assert "Lu 2024: Unitree Z1" in page
+    assert ">Lu 2024</a>" in page
+    assert "Unitree Z1" in page
+    assert context["authors"] == {"z1": "Lu 2024"}
     store.write_audit("z1", made_of, [{"paper": "z1"}])
     with pytest.raises(InputError, match=r"results\.sqlite: audit z1: audits\[0\]\.title: missing"):
         store.audits()
