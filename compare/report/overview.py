@@ -122,7 +122,9 @@ def columns(rows: Iterable[Row], cases: Iterable[str]) -> list[OverviewColumn]:
         budgets.setdefault((row.case, row.variant), set()).add(row.budget)
         variants[row.variant] = None
     return [
-        OverviewColumn(case, variant, " or ".join(f"{count:,}" for count in sorted(budgets[case, variant])))
+        OverviewColumn(
+            case, variant, " or ".join(f"{count:,}" for count in sorted(budgets[case, variant]))
+        )
         for case in cases
         for variant in variants
         if (case, variant) in budgets

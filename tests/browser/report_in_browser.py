@@ -15,9 +15,9 @@ from compare.benchmark.grade import Run, grade
 from compare.benchmark.known_times import key_of_paper
 from compare.benchmark.ladders import ladder_record
 from compare.benchmark.records.rows import Row, RowStatus
-from compare.benchmark.run import audits, tabulate_known_times
 from compare.benchmark.records.settings import Settings
 from compare.benchmark.records.store import Store
+from compare.benchmark.run import audits, tabulate_known_times
 from compare.benchmark.summaries import bound_of
 from compare.engines import ThisProcess
 from compare.report import page as report_page
@@ -139,28 +139,20 @@ class Shown:
     def figure(self, of: str, kind: str) -> Locator:
         """One chart, scrolled into view and drawn; the part that it stands in is opened."""
         found = self.page.locator(f'figure.chart[data-of="{of}"][data-kind="{kind}"]')
-        found.evaluate("(f) => { for (let one = f; one; one = one.parentElement) if (one.tagName === 'DETAILS') one.open = true; }")
+        found.evaluate("(f) => inPage.open(f)")
         found.scroll_into_view_if_needed()
         self.page.wait_for_selector(f'figure[data-of="{of}"][data-kind="{kind}"][data-drawn]')
         return found
 
     def drawn(self, of: str, kind: str) -> dict[str, Any]:
-        """What plotly holds of a chart: its traces and its layout, with what plotly filled in."""
-        read = "f => { const c = f.querySelector('.canvas');" + _PLAIN
-        found: dict[str, Any] = self.figure(of, kind).evaluate(read)
+        """What plotly holds of a chart: its traces and its layout."""
+        found: dict[str, Any] = self.figure(of, kind).evaluate("(f) => inPage.drawn(f)")
         return found
 
     def draw_everything(self) -> None:
         """Open every part and draw every chart, as scrolling through the page would."""
-        self.page.evaluate("() => { for (const part of document.querySelectorAll('details')) part.open = true; }")
-        self.page.evaluate("() => { for (const figure of figures) if (!figure.dataset.drawn) draw(figure); }")
+        self.page.evaluate("() => inPage.drawEverything()")
 
-
-_PLAIN = """
-  return JSON.parse(JSON.stringify({data: c.data, layout: c.layout, shown: {
-    xaxis: c._fullLayout.xaxis && {range: c._fullLayout.xaxis.range},
-    yaxis: c._fullLayout.yaxis && {range: c._fullLayout.yaxis.range}}})); }"""
-_CSP = "addEventListener('securitypolicyviolation', (e) => console.error('CSP: ' + e.violatedDirective + ' ' + e.blockedURI))"
 
 _OF_SPEED = ("Canvas2D: Multiple readback operations", "[.WebGL-")
 
@@ -179,7 +171,7 @@ def open_page(browser: Browser, small_report: SmallReport) -> Iterator[Open]:
         context.set_default_timeout(20_000)
         page = context.new_page()
         shown = Shown(page)
-        page.add_init_script(_CSP)
+        page.add_init_script(path=Path(__file__).with_name("in_page.js"))
         page.on("console", lambda said: _note_said(said.type, said.text, shown.faults))
         page.on("pageerror", lambda error: shown.faults.append(str(error)))
         page.on("dialog", lambda box: (shown.faults.append(f"dialog: {box.message}"), box.dismiss()))
@@ -200,7 +192,9 @@ def _note_said(kind: str, text: str, faults: list[str]) -> None:
 
 def _note(url: str, address: str, faults: list[str]) -> None:
     """What stands in the page itself is no request."""
-    if url.split("#")[0] != address and not url.startswith(("data:", f"blob:{address[:5]}", "blob:null")):
+    if url.split("#")[0] != address and not url.startswith(
+        ("data:", f"blob:{address[:5]}", "blob:null")
+    ):
         faults.append(f"request: {url}")
 
 

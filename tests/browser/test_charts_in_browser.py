@@ -46,7 +46,9 @@ def curve(chart: dict[str, Any], axis: str, kind: str) -> dict[str, Any]:
     return found[0]
 
 
-@pytest.mark.parametrize(("case", "joint"), [("cobot", 1), ("cobot", 4), ("planted", 0), ("planted", 1)])
+@pytest.mark.parametrize(
+    ("case", "joint"), [("cobot", 1), ("cobot", 4), ("planted", 0), ("planted", 1)]
+)
 def test_switching_joints_draws_that_joints_own_motion_limits_and_units(
     light: Shown, small_report: SmallReport, case: str, joint: int
 ) -> None:
@@ -77,7 +79,9 @@ def test_switching_joints_draws_that_joints_own_motion_limits_and_units(
         assert trace["y"] == pytest.approx(list(scale * problem.waypoints[:, joint]), abs=1e-7)
 
 
-def test_what_is_over_a_limit_is_drawn_thick_and_nothing_else(light: Shown, small_report: SmallReport) -> None:
+def test_what_is_over_a_limit_is_drawn_thick_and_nothing_else(
+    light: Shown, small_report: SmallReport
+) -> None:
     """The published motion breaks limits of some joints; the two certified ones break none."""
     problem = small_report.problems["cobot"]
     thick: dict[str, float] = {}
@@ -92,7 +96,11 @@ def test_what_is_over_a_limit_is_drawn_thick_and_nothing_else(light: Shown, smal
             over = np.array([y for y in trace["y"] if y is not None])
             assert (np.abs(over) > limit).all()
             thick[f"{joint} {order}"] = float(np.abs(over).max() / limit)
-    published = [one for one in light.page.evaluate("() => data.cobot.motion.motions") if one["kind"] == "published"]
+    published = [
+        one
+        for one in light.page.evaluate("() => data.cobot.motion.motions")
+        if one["kind"] == "published"
+    ]
     assert len(published) == 1
     assert bool(thick) == ("breaks" in published[0]["title"])
 
@@ -105,9 +113,7 @@ def test_the_arm_is_where_the_joints_put_it(light: Shown, small_report: SmallRep
     slider = figure.locator("input[type=range]")
     longest = float(slider.get_attribute("max") or "nan")
     for share in (0.0, 0.31, 0.77, 1.0):
-        slider.evaluate(
-            "(s, v) => { s.value = v; s.dispatchEvent(new Event('input', {bubbles: true})); }", share * longest
-        )
+        slider.evaluate("(s, time) => inPage.slideTo(s, time)", share * longest)
         time = float(slider.input_value())
         chart = light.drawn("cobot", "arm")
         moving = [trace for trace in chart["data"] if trace["mode"] == "lines+markers"]
@@ -134,59 +140,53 @@ def sag(arm: Any, motion: Trajectory) -> float:
     return float((motion.seconds / 60.0) ** 2 / 8.0 * bend)
 
 
-# in the page itself: on a slow machine the motion would end before a driver has pressed the button again
-PLAY_AND_PAUSE = """async (figure) => {
-  const button = figure.querySelector(".controls button"), slider = figure.querySelector("input[type=range]");
-  const frame = () => new Promise(requestAnimationFrame), words = [button.textContent];
-  button.click();
-  words.push(button.textContent);
-  while (Number(slider.value) < 0.1) await frame();
-  button.click();
-  words.push(button.textContent);
-  const paused = Number(slider.value);
-  for (let k = 0; k < 5; k++) await frame();
-  return {words, paused, later: Number(slider.value), clock: figure.querySelector("output").textContent};
-}"""
-
-
 def test_play_moves_the_arm_until_pause(light: Shown) -> None:
     figure = light.figure("cobot", "arm")
     slider, button = figure.locator("input[type=range]"), figure.locator(".controls button")
-    slider.evaluate("(s) => { s.value = 0; s.dispatchEvent(new Event('input', {bubbles: true})); }")
+    slider.evaluate("(s) => inPage.slideTo(s, 0)")
     before = light.drawn("cobot", "arm")["data"][1]["x"]
-    found = figure.evaluate(PLAY_AND_PAUSE)
+    found = figure.evaluate("(f) => inPage.playAndPause(f)")
     assert found["words"] == ["Play", "Pause", "Play"]
     assert found["later"] == found["paused"] > 0.1
-    assert found["clock"].startswith(f"{found['paused']:.2f} s of")
+    step = 4.2 / 500.0  # to which the slider rounds
+    assert float(found["clock"].split()[0]) == pytest.approx(found["paused"], abs=0.006 + step)
     assert light.drawn("cobot", "arm")["data"][1]["x"] != before
     # at its end it stops by itself, and begins anew
-    slider.evaluate("(s) => { s.value = s.max - 0.05; s.dispatchEvent(new Event('input', {bubbles: true})); }")
+    slider.evaluate("(s) => inPage.slideTo(s, s.max - 0.05)")
     button.click()
     light.page.wait_for_function("(s) => s.value === s.max", arg=slider.element_handle())
     light.page.wait_for_function("(b) => b.textContent === 'Play'", arg=button.element_handle())
 
 
 def test_the_arm_can_be_turned_and_stays_turned(light: Shown) -> None:
-    figure = light.figure("cobot", "arm")
-    before = light.drawn("cobot", "arm")["layout"]["scene"]["camera"]["eye"]
-    box = figure.locator(".canvas").bounding_box()
+    light.draw_everything()  # a chart that is drawn later moves what stands below it
+    canvas = light.figure("cobot", "arm").locator(".canvas")
+    canvas.evaluate("(c) => c.scrollIntoView({block: 'center', behavior: 'instant'})")
+    light.page.evaluate("() => new Promise(requestAnimationFrame)")
+    eye = "(c) => JSON.stringify(c.layout.scene.camera.eye)"
+    before = canvas.evaluate(eye)
+    box = canvas.bounding_box()
     assert box is not None
     x, y = box["x"] + box["width"] / 2, box["y"] + box["height"] / 2
     light.page.mouse.move(x, y)
     light.page.mouse.down()
-    light.page.mouse.move(x + 120, y + 30, steps=4)
+    for step in range(1, 6):  # plotly turns the camera from frame to frame
+        light.page.mouse.move(x + 24 * step, y + 6 * step)
+        light.page.evaluate("() => new Promise(requestAnimationFrame)")
     light.page.mouse.up()
-    turned = light.drawn("cobot", "arm")["layout"]["scene"]["camera"]["eye"]
-    assert turned != before
+    light.page.wait_for_function(
+        f"([c, before]) => ({eye})(c) !== before", arg=[canvas.element_handle(), before]
+    )
+    turned = canvas.evaluate(eye)
     light.page.locator("#theme").click()
-    assert light.drawn("cobot", "arm")["layout"]["scene"]["camera"]["eye"] == turned
+    assert canvas.evaluate(eye) == turned
     light.page.locator("#theme").click()
 
 
 def test_the_keyboard_plays_the_arm(light: Shown) -> None:
     figure = light.figure("cobot", "arm")
     slider = figure.locator("input[type=range]")
-    slider.evaluate("(s) => { s.value = 0; s.dispatchEvent(new Event('input', {bubbles: true})); }")
+    slider.evaluate("(s) => inPage.slideTo(s, 0)")
     slider.focus()
     for _ in range(3):
         slider.press("ArrowRight")
@@ -212,19 +212,29 @@ def test_progress_shows_the_coding_and_the_quantity_that_are_chosen(light: Shown
 
 
 @pytest.mark.parametrize("case", ["cobot", "planted"])
-def test_every_stored_gap_is_a_mark_of_the_seeds(light: Shown, small_report: SmallReport, case: str) -> None:
+def test_every_stored_gap_is_a_mark_of_the_seeds(
+    light: Shown, small_report: SmallReport, case: str
+) -> None:
     chart = light.drawn(case, "seeds")
     best = small_report.ladders[case]["ladder"]["family"]["seconds"]
     for coding in CODINGS:
         trace = next(one for one in chart["data"] if one["name"] == coding)
-        rows = [r for r in small_report.rows if (r.case, r.coding) == (case, coding) and r.seconds is not None]
-        assert sorted(trace["x"]) == pytest.approx(sorted(row.seconds / best - 1.0 for row in rows), rel=1e-6)
+        rows = [
+            r
+            for r in small_report.rows
+            if (r.case, r.coding) == (case, coding) and r.seconds is not None
+        ]
+        assert sorted(trace["x"]) == pytest.approx(
+            sorted(row.seconds / best - 1.0 for row in rows), rel=1e-6
+        )
     unsolved = [note["text"] for note in chart["layout"].get("annotations", [])]
     assert unsolved == ([f"{len(SEEDS)} of {len(SEEDS)} without a motion"] if case == "cobot" else [])
 
 
 @pytest.mark.parametrize("case", ["cobot", "planted"])
-def test_the_ladder_shows_every_bound_at_its_time(light: Shown, small_report: SmallReport, case: str) -> None:
+def test_the_ladder_shows_every_bound_at_its_time(
+    light: Shown, small_report: SmallReport, case: str
+) -> None:
     figure = light.figure(case, "ladder")
     box = figure.locator("input[type=checkbox]")
     few = sum(len(trace["x"]) for trace in light.drawn(case, "ladder")["data"])
@@ -243,14 +253,25 @@ def test_the_ladder_shows_every_bound_at_its_time(light: Shown, small_report: Sm
 
 
 @pytest.mark.parametrize("case", ["cobot", "planted"])
-def test_where_the_time_goes_ends_at_the_motion_of_the_swarm(light: Shown, small_report: SmallReport, case: str) -> None:
+def test_where_the_time_goes_ends_at_the_motion_of_the_swarm(
+    light: Shown, small_report: SmallReport, case: str
+) -> None:
     chart = light.drawn(case, "split")
     ladder = small_report.ladders[case]["ladder"]
     notes = {note["y"]: note for note in chart["layout"]["annotations"]}
     assert set(notes) == {f"pso, {coding}" for coding in CODINGS}
     for coding in CODINGS:
-        times = [row.seconds for row in small_report.rows if (row.case, row.coding, row.swarm) == (case, coding, "pso")]
-        parts = [(x, y) for trace in chart["data"] for x, y in zip(trace["x"], trace["y"], strict=True) if x is not None]
+        times = [
+            row.seconds
+            for row in small_report.rows
+            if (row.case, row.coding, row.swarm) == (case, coding, "pso")
+        ]
+        parts = [
+            (x, y)
+            for trace in chart["data"]
+            for x, y in zip(trace["x"], trace["y"], strict=True)
+            if x is not None
+        ]
         end = max(x for x, y in parts if y == f"pso, {coding}")
         note = notes[f"pso, {coding}"]
         assert min(times) <= end <= max(times)
@@ -264,10 +285,9 @@ def test_where_the_time_goes_ends_at_the_motion_of_the_swarm(light: Shown, small
 
 def test_a_hover_over_a_planted_swarm_shows_its_name_as_text(light: Shown) -> None:
     figure = light.figure("planted", "seeds")
-    hover = "(f, k) => Plotly.Fx.hover(f.querySelector('.canvas'), [{curveNumber: 0, pointNumber: k}])"
     texts = []
     for k in range(len(light.drawn("planted", "seeds")["data"][0]["x"])):
-        figure.evaluate(hover, k)
+        figure.evaluate("(f, k) => inPage.hover(f, 0, k)", k)
         texts += figure.locator(".hoverlayer .hovertext text").all_text_contents()
     assert any(SWARM in text for text in texts)
     assert figure.locator(".hoverlayer script").count() == 0

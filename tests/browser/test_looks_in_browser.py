@@ -11,52 +11,6 @@ from report_in_browser import Open, Shown
 
 WIDTHS = (1300, 420)
 COLOUR = "(element) => { const s = getComputedStyle(element); return [s.color, s.backgroundColor]; }"
-# text that its own box does not hold, unless a box around it scrolls
-CLIPPED = """() => {
-  const scrolls = (element) => {
-    for (let one = element; one && one !== document.body; one = one.parentElement)
-      if (/auto|scroll/.test(getComputedStyle(one).overflowX)) return true;
-    return false;
-  };
-  const out = [];
-  const walk = document.createTreeWalker(document.body, NodeFilter.SHOW_TEXT);
-  while (walk.nextNode()) {
-    const element = walk.currentNode.parentElement;
-    if (!walk.currentNode.textContent.trim() || element.closest("script, style, svg, .skip, option")) continue;
-    if (!element.checkVisibility() || scrolls(element)) continue;
-    const range = document.createRange();
-    range.selectNodeContents(walk.currentNode);
-    for (const box of range.getClientRects()) {
-      if (box.left < -0.5 || box.right > innerWidth + 0.5) out.push(walk.currentNode.textContent.trim().slice(0, 60));
-      for (let one = element; one; one = one.parentElement) {
-        const frame = one.getBoundingClientRect();
-        if (getComputedStyle(one).overflowX !== "visible" && (box.right > frame.right + 1 || box.left < frame.left - 1))
-          out.push(`cut: ${walk.currentNode.textContent.trim().slice(0, 60)}`);
-      }
-    }
-  }
-  return [...new Set(out)];
-}"""
-# words of a chart that its canvas does not show whole, and words of one axis that lie on each other
-CUT_IN_CHARTS = """() => [...document.querySelectorAll("figure.chart")].flatMap((figure) => {
-  const canvas = figure.querySelector(".canvas").getBoundingClientRect();
-  return [...figure.querySelectorAll("svg text")].filter((words) => {
-    const box = words.getBoundingClientRect();
-    return words.textContent.trim() && box.width > 0 && !words.closest(".modebar-container, .hoverlayer")
-      && (box.left < canvas.left - 1 || box.right > canvas.right + 1 || box.top < canvas.top - 1 || box.bottom > canvas.bottom + 1);
-  }).map((words) => `${figure.dataset.of} ${figure.dataset.kind}: ${words.textContent}`);
-})"""
-
-# labels of an axis that lie on each other or on its title
-OVERLAPS = """() => [...document.querySelectorAll("figure.chart")].flatMap((figure) => ["x", "y"].flatMap((axis) => {
-  const boxes = [...figure.querySelectorAll(`.${axis}tick text, .${axis}title`)].map((words) => [words.textContent, words.getBoundingClientRect()]);
-  const out = [];
-  boxes.forEach(([one, a], k) => boxes.slice(k + 1).forEach(([other, b]) => {
-    if (Math.min(a.right, b.right) - Math.max(a.left, b.left) > 2 && Math.min(a.bottom, b.bottom) - Math.max(a.top, b.top) > 2)
-      out.push(`${figure.dataset.of} ${figure.dataset.kind}: ${one} on ${other}`);
-  }));
-  return out;
-}))"""
 
 
 def luminance(colour: str) -> float:
@@ -104,7 +58,10 @@ def test_the_system_changes_its_mind_and_the_page_follows(light: Shown) -> None:
 
 def test_the_button_changes_the_theme_of_text_and_charts(dark: Shown) -> None:
     button = dark.page.locator("#theme")
-    before = colours(dark), [trace["marker"]["color"] for trace in dark.drawn("cobot", "ladder")["data"]]
+    before = (
+        colours(dark),
+        [trace["marker"]["color"] for trace in dark.drawn("cobot", "ladder")["data"]],
+    )
     assert button.get_attribute("aria-label") == "Use light colours"
     button.click()
     after = colours(dark), [trace["marker"]["color"] for trace in dark.drawn("cobot", "ladder")["data"]]
@@ -140,9 +97,9 @@ def test_nothing_is_clipped(light: Shown, width: int) -> None:
     page.wait_for_timeout(200)  # the page draws its charts for the new width
     light.draw_everything()
     assert page.evaluate("() => document.documentElement.scrollWidth <= innerWidth")
-    assert page.evaluate(CLIPPED) == []
-    assert page.evaluate(CUT_IN_CHARTS) == []
-    assert page.evaluate(OVERLAPS) == []
+    assert page.evaluate("() => inPage.clipped()") == []
+    assert page.evaluate("() => inPage.cutInCharts()") == []
+    assert page.evaluate("() => inPage.overlapsInCharts()") == []
     page.set_viewport_size({"width": 1300, "height": 900})
 
 
@@ -155,20 +112,28 @@ def test_paper_is_light_and_shows_what_is_open_whole(open_page: Open, tmp_path: 
     page.emulate_media(media="print")
     assert page.locator("figure.chart").count() >= 11
     assert page.locator("figure.chart .canvas:not(:has(svg.main-svg))").count() == 0
-    widths = page.locator("figure.chart svg.main-svg").evaluate_all("(all) => all.map((one) => one.clientWidth)")
+    widths = page.locator("figure.chart svg.main-svg").evaluate_all(
+        "(all) => all.map((one) => one.clientWidth)"
+    )
     assert max(widths) <= 718  # A4 between the margins
-    assert page.evaluate(CUT_IN_CHARTS) == []
+    assert page.evaluate("() => inPage.cutInCharts()") == []
     ink, ground = page.locator("body").evaluate(COLOUR)
     assert contrast(ink, "rgb(255, 255, 255)") > 10.0
     assert luminance(ground) > 0.9
-    words = page.locator("figure.chart .xtitle").evaluate_all("(all) => all.map((t) => getComputedStyle(t).fill)")
+    words = page.locator("figure.chart .xtitle").evaluate_all(
+        "(all) => all.map((t) => getComputedStyle(t).fill)"
+    )
     assert len(words) > 5
     assert all(contrast(one, "rgb(255, 255, 255)") >= 4.5 for one in words)
     assert page.locator(".side").is_hidden()
     page.emulate_media(media=None)
     page.evaluate("() => dispatchEvent(new Event('afterprint'))")
     assert page.evaluate("() => document.documentElement.dataset.theme") == "dark"
-    made = page.pdf(path=tmp_path / "report.pdf", format="A4", margin=dict.fromkeys(("left", "right", "top", "bottom"), "1cm"))
+    made = page.pdf(
+        path=tmp_path / "report.pdf",
+        format="A4",
+        margin=dict.fromkeys(("left", "right", "top", "bottom"), "1cm"),
+    )
     assert made.startswith(b"%PDF")
     assert len(made) > 100_000
     assert shown.faults == []
@@ -184,7 +149,9 @@ def test_a_chart_in_a_closed_part_is_drawn_anew_when_it_is_opened(dark: Shown) -
     ink, ground = colours(dark)
     assert ground > 0.9
     assert ink < 0.05
-    widths = figure.locator(".canvas").evaluate("(c) => [c.clientWidth, c.querySelector('svg').clientWidth]")
+    widths = figure.locator(".canvas").evaluate(
+        "(c) => [c.clientWidth, c.querySelector('svg').clientWidth]"
+    )
     assert widths[0] == pytest.approx(widths[1], abs=1.0)
     dark.page.set_viewport_size({"width": 1300, "height": 900})
     dark.page.locator("#theme").click()

@@ -13,7 +13,10 @@ from compare.report.frame import CHARTS
 
 FOLDER = Path(__file__).parents[3] / "compare" / "report" / "vendor"
 STATED = tomllib.loads((FOLDER / "vendored.toml").read_text("utf-8"))
-WORDS = {"MIT": "Permission is hereby granted, free of charge", "Unlicense": "released into the public domain"}
+WORDS = {
+    "MIT": "Permission is hereby granted, free of charge",
+    "Unlicense": "released into the public domain",
+}
 
 
 @pytest.mark.parametrize("name", STATED)
@@ -32,7 +35,9 @@ def test_the_folder_holds_what_is_stated_and_nothing_else() -> None:
 
 
 def test_every_vendored_script_is_used() -> None:
-    assert {f"vendor/{one['file']}" for one in STATED.values()} == {p for p in CHARTS if p.startswith("vendor/")}
+    assert {f"vendor/{one['file']}" for one in STATED.values()} == {
+        p for p in CHARTS if p.startswith("vendor/")
+    }
 
 
 def test_plotly_states_its_version_and_licence() -> None:
