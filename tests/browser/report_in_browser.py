@@ -61,7 +61,7 @@ class SmallReport:
 
 
 @pytest.fixture(scope="session")
-def small_report(tmp_path_factory: pytest.TempPathFactory) -> SmallReport:
+def small_report(chromium: str, tmp_path_factory: pytest.TempPathFactory) -> SmallReport:
     """The report of an arm with a paper, and of a problem whose names are HTML."""
     folder = tmp_path_factory.mktemp("browser")
     (folder / "planted.toml").write_text(PLANTED, "utf-8")
@@ -102,6 +102,7 @@ def _as_shown(row: Row) -> Row:
     return row
 
 
+@pytest.fixture(scope="session")
 def chromium() -> str:
     """The browser; the tests are skipped where there is none, and fail where they have to run."""
     found = next(filter(None, map(shutil.which, NAMES)), None)
@@ -115,16 +116,15 @@ def chromium() -> str:
 
 # not for the session: its event loop would be in the way of every other test that has one
 @pytest.fixture(scope="module")
-def browser() -> Iterator[Browser]:
+def browser(chromium: str) -> Iterator[Browser]:
     """Chromium, with 3-D drawn in software."""
-    executable = chromium()
     from playwright.sync_api import sync_playwright
 
     flags = ["--use-angle=swiftshader", "--enable-unsafe-swiftshader"]
     if getattr(os, "geteuid", lambda: 1)() == 0:
         flags.append("--no-sandbox")
     with sync_playwright() as driver:
-        running = driver.chromium.launch(executable_path=executable, args=flags)
+        running = driver.chromium.launch(executable_path=chromium, args=flags)
         yield running
         running.close()
 
