@@ -203,9 +203,29 @@ def test_planted_names_in_charts_are_text(light: Shown) -> None:
     motion.locator("select").select_option("0")
 
 
-def test_a_link_into_a_closed_part_opens_it_and_every_link_inside_has_a_target(light: Shown) -> None:
+def test_every_link_inside_the_page_has_a_target(light: Shown) -> None:
     dead = light.page.evaluate(
         "() => [...document.querySelectorAll('a[href^=\"#\"]')].map((a) => a.getAttribute('href').slice(1))"
         ".filter((id) => !document.getElementById(decodeURIComponent(id)))"
     )
     assert dead == []
+
+
+@pytest.mark.parametrize("way", ["link", "address"])
+def test_a_link_to_a_closed_part_opens_it(
+    light: Shown, open_page: Any, small_report: SmallReport, way: str
+) -> None:
+    """From the side bar, and from the address of a page that somebody was sent."""
+    page = light.page
+    if way == "address":
+        page = open_page().page
+        page.goto(f"{small_report.page.as_uri()}#planted")
+        page.reload()
+    part = page.locator("details.case[data-of=planted]")
+    if way == "link":
+        part.evaluate("(one) => { one.open = false; }")
+        page.locator('nav a[href="#planted"]').click()
+    page.wait_for_function("(one) => one.open", arg=part.element_handle())
+    assert part.locator("h4").first.is_visible()
+    top = page.locator("#planted").evaluate("(one) => one.getBoundingClientRect().top")
+    assert -5.0 <= top < 900.0
