@@ -30,7 +30,7 @@ NAMES = ("chromium", "chromium-browser", "google-chrome")
 TITLE = "<script>alert('title')</script> \"quoted\" & 'single' <img src=x onerror=alert(1)>"
 SOURCE = "<b>bold</b> </script><script>alert('source')</script>"
 JOINTS = ("<script>alert('joint')</script>", "b\"'</td><b>")
-SWARM = "<script>alert('swarm')</script>\"'"  # a plug-in can be called anything
+SWARM = "<script>alert('swarm')</script><b>\"'"  # a plug-in can be called anything
 PLANTED = f"""\
 name = "planted"
 title = '''{TITLE}'''

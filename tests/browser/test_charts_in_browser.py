@@ -285,9 +285,10 @@ def test_where_the_time_goes_ends_at_the_motion_of_the_swarm(
 
 def test_a_hover_over_a_planted_swarm_shows_its_name_as_text(light: Shown) -> None:
     figure = light.figure("planted", "seeds")
-    texts = []
-    for k in range(len(light.drawn("planted", "seeds")["data"][0]["x"])):
-        figure.evaluate("(f, k) => inPage.hover(f, 0, k)", k)
-        texts += figure.locator(".hoverlayer .hovertext text").all_text_contents()
-    assert any(SWARM in text for text in texts)
+    words = light.drawn("planted", "seeds")["data"][0]["hovertext"]
+    point = next(k for k, one in enumerate(words) if "alert" in one)
+    figure.evaluate("(f, k) => inPage.hover(f, 0, k)", point)
+    shown = figure.locator(".hoverlayer .hovertext text")
+    shown.wait_for(state="attached")  # plotly waits before it shows
+    assert SWARM in (shown.text_content() or "")
     assert figure.locator(".hoverlayer script").count() == 0
