@@ -22,6 +22,8 @@ from hypothesis import strategies as st
 from formulations import CASES, Ladder, Limits, Problem, ladder, load
 from formulations.problem.arrays import Array
 
+pytest_plugins = ["report_in_browser"]
+
 # the shipped cases where their optima and proofs are needed: those of z1 take minutes
 SOLVED = [pytest.param(case, marks=[pytest.mark.long] * (case == "z1")) for case in CASES]
 

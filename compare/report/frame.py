@@ -10,7 +10,7 @@ import jinja2
 
 from compare.report.words import percent, seconds
 
-TABLES = ("vendor/sortable.min.js", "vendor/sortable.a11y.min.js", "script/page.js", "script/table.js")
+TABLES = ("vendor/sortable.min.js", "script/page.js", "script/table.js")
 """Scripts of a page without charts: themes, printing, tables that can be sorted and filtered."""
 CHARTS = ("vendor/plotly-gl3d.min.js", *TABLES, *(
     f"script/{name}.js" for name in ("arms", "ladder", "curves", "motion", "arm", "split")

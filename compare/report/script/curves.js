@@ -6,6 +6,7 @@ const VARIANTS = [["blue", "diamond"], ["red", "square"], ["sky", "circle"], ["o
 const SMALLEST = 1e-12;  // smaller gaps are rounding
 const GAPS = {type: "log", tickvals: [1e-12, 1e-10, 1e-8, 1e-6, 1e-4, 1e-2, 1, 100],
               ticktext: ["rounding", "1e-8 %", "1e-6 %", "1e-4 %", "0.01 %", "1 %", "100 %", "1e4 %"]};
+const FEW = {tickvals: [1e-12, 1e-8, 1e-4, 1], ticktext: ["rounding", "1e-6 %", "0.01 %", "100 %"]};  // for phones
 
 function percent(gap) {
   return gap === null ? "no verified motion" : `${(100 * gap).toPrecision(3)} %`;
@@ -42,11 +43,13 @@ charts.seeds = (figure, found) => {
     text: `${lane.gap.filter((gap) => gap === null).length} of ${lane.gap.length} without a motion`,
     showarrow: false, font: {size: 10, color: colour(VARIANTS[variants.indexOf(lane.variant) % 6][0])},
   }));
+  const small = narrow(figure), names = found.swarms.map((name) => fold(name, small ? 14 : 40));
+  const rows = Math.max(...names.map((name) => name.split("<br>").length));
   plot(figure, traces, layout({
-    height: 130 + 26 * found.swarms.length, showlegend: true, annotations: lost,
-    xaxis: {...GAPS, title: {text: fold("gap to the best motion of the family; every seed is a mark, hollow: breaks limits as claimed", narrow(figure) ? 34 : 120)},
+    height: (small ? 200 : 130) + (10 + 16 * rows) * found.swarms.length, showlegend: true, annotations: lost,
+    xaxis: {...GAPS, ...(small && FEW), title: {text: fold("gap to the best motion of the family; every seed is a mark, hollow: breaks limits as claimed", small ? 34 : 120)},
             range: [-12.4, 1.5]},
-    yaxis: {tickvals: found.swarms.map((_, k) => k), ticktext: found.swarms.map((name) => fold(name, narrow(figure) ? 14 : 40)),
+    yaxis: {tickvals: found.swarms.map((_, k) => k), ticktext: names,
             range: [found.swarms.length - 0.5, -0.5]},
   }));
 };

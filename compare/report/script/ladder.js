@@ -29,6 +29,8 @@ charts.ladder = (figure, found) => {
     return ` (${gap > 0 ? "+" : "−"}${Math.abs(100 * gap).toPrecision(3)} %)`;
   };
   const name = (line) => (small ? fold(line.name, 22) : fold(line.name, 44));
+  // the names stand on the left of the plot, the longest time's words on its right
+  const inside = widthOf(figure) - (small ? 140 : 270), beside = inside / (inside - (small ? 80 : 150));
   const traces = Object.entries(KINDS).map(([kind, [tint, symbol, words]]) => {
     const mine = lines.filter((line) => line.kind === kind);
     return {
@@ -63,7 +65,7 @@ charts.ladder = (figure, found) => {
     margin: {l: 10, r: 10, t: 24, b: 40},
     legend: {orientation: "h", x: 0, xref: "container", y: -0.02, yref: "container", yanchor: "bottom"},
     xaxis: {title: {text: `total time [s]${found.optimum && !small ? "; in brackets: against the best of the family" : ""}`},
-            range: [0, right * (small ? 1.6 : 1.32)], showgrid: false},
+            range: [0, right * beside], showgrid: false},
     yaxis: {categoryorder: "array", categoryarray: lines.map(name).reverse(), showgrid: false,
             tickfont: {size: small ? 11 : 13}},
   }));
@@ -71,7 +73,8 @@ charts.ladder = (figure, found) => {
 
 function fold(words, width) {
   const rows = [""];
-  for (const word of words.split(" ")) {
+  // a name without a space may be longer than a row
+  for (const word of words.split(" ").flatMap((one) => one.match(new RegExp(`.{1,${width}}`, "gsu")) ?? [""])) {
     if (rows.at(-1).length + word.length > width && rows.at(-1)) rows.push("");
     rows.push(`${rows.pop()} ${word}`.trim());
   }

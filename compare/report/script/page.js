@@ -22,8 +22,14 @@ function make(tag, attributes = {}, ...children) {
   return element;
 }
 
+let paper = null;  // width of a chart on paper [px], while the page is printed: A4 and US letter hold it
+
+function widthOf(figure) {
+  return paper ?? figure.querySelector(".canvas").clientWidth;
+}
+
 function narrow(figure) {
-  return figure.clientWidth < 560;
+  return widthOf(figure) < 560;
 }
 
 // what all charts have in common
@@ -46,13 +52,13 @@ function layout(more = {}) {
   return made;
 }
 
-const config = {displaylogo: false, responsive: true, scrollZoom: false,
+const config = {displaylogo: false, responsive: false, scrollZoom: false,
                 modeBarButtonsToRemove: ["select2d", "lasso2d", "autoScale2d"],
                 toImageButtonOptions: {format: "svg"}};
 
 function plot(figure, traces, how) {
   const canvas = figure.querySelector(".canvas");
-  Plotly.react(canvas, traces, how, config);
+  Plotly.react(canvas, traces, {...how, width: widthOf(figure)}, config);
   for (const button of canvas.querySelectorAll(".modebar-btn")) button.setAttribute("tabindex", "-1");
 }
 
@@ -95,8 +101,24 @@ const eye = new IntersectionObserver((entries) => {
 }, {rootMargin: "400px"});
 
 function drawAgain() {
-  for (const figure of figures) if (figure.dataset.drawn) draw(figure);
+  for (const figure of figures) {
+    if (!figure.dataset.drawn) continue;
+    if (figure.checkVisibility()) draw(figure);
+    else {  // in a closed part: when it is opened
+      delete figure.dataset.drawn;
+      eye.observe(figure);
+    }
+  }
 }
+
+// what fits a chart depends on its width, so plotly's own way to follow the window is not enough
+let width = innerWidth, waiting = 0;
+addEventListener("resize", () => {
+  if (innerWidth === width) return;  // a phone's bars come and go
+  width = innerWidth;
+  clearTimeout(waiting);
+  waiting = setTimeout(drawAgain, 100);
+});
 
 // light or dark: as the system asks, or as the button says
 function setTheme(theme) {
@@ -118,9 +140,13 @@ let before = null;
 addEventListener("beforeprint", () => {
   before = root.dataset.theme;
   root.dataset.theme = "light";
+  paper = 690;
   for (const figure of figures) if (!figure.closest("details:not([open])")) draw(figure);
 });
-addEventListener("afterprint", () => setTheme(before));
+addEventListener("afterprint", () => {
+  paper = null;
+  setTheme(before);
+});
 
 // a link to a closed part, or to the heading above one, opens it
 function openTarget() {

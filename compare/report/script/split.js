@@ -4,6 +4,10 @@
 const SHARES = {bound: "green", proof: "soft", path: "blue", timing: "sky", family: "blue",
                 synchronisation: "orange", optimiser: "red"};
 
+function wholeOf(bar) {
+  return Math.max(...Object.values(bar.shares).flat());
+}
+
 charts.split = (figure, found) => {
   const small = narrow(figure);
   const traces = Object.entries(SHARES).map(([share, tint]) => {
@@ -19,14 +23,14 @@ charts.split = (figure, found) => {
             line: {color: colour(tint), width: 24}};
   }).filter((trace) => trace.x.length);
   const notes = found.bars.map((bar) => {
-    const ends = Object.values(bar.shares), whole = ends.at(-1)[1], bound = ends[0][1];
+    const whole = wholeOf(bar), bound = bar.shares.bound[1];
     return {x: whole, y: text(bar.name), xanchor: "left", xshift: 6, showarrow: false,
-            text: `${whole.toFixed(3)} s, ${(100 * (whole / bound - 1)).toPrecision(3)} % above`, font: {size: 12}};
+            text: `${whole.toFixed(3)} s,${small ? "<br>" : " "}${(100 * (whole / bound - 1)).toPrecision(3)} % above`, font: {size: 12}};
   });
-  const longest = Math.max(...found.bars.map((bar) => Object.values(bar.shares).at(-1)[1]));
+  const longest = Math.max(...found.bars.map(wholeOf));
   plot(figure, traces, layout({
-    height: 200 + 44 * found.bars.length, showlegend: true, annotations: notes,
-    xaxis: {title: {text: "time [s]"}, range: [0, longest * (small ? 1.7 : 1.3)]},
+    height: (small ? 400 : 200) + 44 * found.bars.length, showlegend: true, annotations: notes,
+    xaxis: {title: {text: "time [s]"}, range: [0, longest * (small ? 1.9 : 1.3)]},
     yaxis: {type: "category", range: [found.bars.length - 0.5, -0.5], showgrid: false},
     legend: {x: 0, y: 1.02, yanchor: "bottom"},
   }));

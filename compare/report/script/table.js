@@ -1,5 +1,14 @@
 "use strict";
-// Filters of the overview: which arms, codings and groups of swarms are shown.
+// Tables: a head sorts by keyboard too; filters of the overview show some arms, codings and groups of swarms.
+
+for (const head of document.querySelectorAll("table.sortable thead th:not(.no-sort)")) {
+  head.tabIndex = 0;
+  head.addEventListener("keydown", (event) => {
+    if (event.key !== "Enter" && event.key !== " ") return;
+    event.preventDefault();  // a space would scroll
+    head.click();
+  });
+}
 
 for (const form of document.querySelectorAll("form.filters")) {
   const table = document.getElementById(form.dataset.table);
