@@ -24,6 +24,7 @@ _FIRST_STEPS = (
         ("timebound plan FILE.toml --export motion.csv --rate 125", "a file for the controller"),
         ("timebound solve FILE.toml", "every bound, and what limits the motion"),
         ("timebound check FILE.toml motion.csv", "yours: is it safe, and how far from the best?"),
+        ("timebound view FILE.toml motion.csv", "the same to look at, with the arm in motion"),
     ),
     (
         "You have a new swarm, and want to know whether it is better:",

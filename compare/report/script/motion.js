@@ -33,6 +33,12 @@ function sampled(motion, joint, order) {
   return [t, x];
 }
 
+// without a limit one motion can be so steep that the others would be flat: it is cut off, a double click shows it whole
+function cropped(extents, low, high) {
+  const next = extents.toSorted((a, b) => b - a)[1];
+  return low === null && high === null && Math.max(...extents) > 20 * next && next > 0 ? {range: [-1.5 * next, 1.5 * next]} : {};
+}
+
 charts.motion = (figure, found) => {
   const moving = found.joints.map((_, j) => j).filter((j) => found.joints[j].moves);
   const joint = Number(figure.dataset.joint ?? found.first ?? moving[0] ?? 0);
@@ -48,12 +54,12 @@ charts.motion = (figure, found) => {
   found.quantities.forEach((quantity, order) => {
     const axis = order ? `y${order + 1}` : "y";
     const [low, high] = limits[order];
-    let extent = 0;
+    const extents = [];
     for (const motion of found.motions) {
       const [tint, dash] = MOTIONS[motion.kind];
       const [t, x] = sampled(motion, joint, order);
       const title = fold(motion.title, narrow(figure) ? 40 : 90);
-      extent = Math.max(extent, ...x.map(Math.abs));
+      extents.push(Math.max(...x.map(Math.abs)));
       traces.push({type: "scatter", mode: "lines", x: t, y: x, yaxis: axis, name: title, legendgroup: motion.kind,
                    showlegend: order === 0, line: {color: colour(tint), dash, width: 2},
                    hovertemplate: `${quantity} %{y:.4g} ${units[order]} at %{x:.4f} s<extra></extra>`});
@@ -69,6 +75,7 @@ charts.motion = (figure, found) => {
                      hovertemplate: "waypoint %{text} at %{x:.4f} s<extra></extra>", marker: {color: colour(tint), size: waypoints.length > 40 ? 3 : 7}});
       }
     }
+    const extent = Math.max(...extents);
     for (const limit of [low, high]) {
       // a position limit far away would flatten the curve
       if (limit === null || (order === 0 && Math.abs(limit) > 2 * extent)) continue;
@@ -79,6 +86,7 @@ charts.motion = (figure, found) => {
     axes[order ? `yaxis${order + 1}` : "yaxis"] = {
       domain: [top - 0.86 * height, top], anchor: "x",
       title: {text: `${quantity}<br>[${units[order]}]`, font: {size: 12}}, nticks: 5,
+      ...cropped(extents, low, high),
     };
   });
   plot(figure, traces, layout({
