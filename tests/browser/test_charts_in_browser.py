@@ -14,6 +14,8 @@ from compare.report.motion_picture import arm_of, skeleton
 from formulations import FAMILIES, Trajectory
 from formulations.problem.arrays import Array
 
+pytestmark = pytest.mark.long
+
 UNITS = {"cobot": "deg", "planted": "rad"}  # as the problems' files say
 POWERS = ("", "/s", "/s²", "/s³")
 CODINGS = ("published", "shared", "stretched")

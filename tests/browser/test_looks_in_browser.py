@@ -9,6 +9,8 @@ from typing import Any
 import pytest
 from report_in_browser import Open, Shown
 
+pytestmark = pytest.mark.long
+
 WIDTHS = (1300, 420)
 COLOUR = "(element) => { const s = getComputedStyle(element); return [s.color, s.backgroundColor]; }"
 

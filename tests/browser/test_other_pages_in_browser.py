@@ -35,9 +35,9 @@ def chapter(folder: Path) -> Path:
 def viewed(folder: Path) -> Path:
     """A problem whose names are HTML, and a motion that misses its waypoints and is too fast."""
     (folder / "planted.toml").write_text(PLANTED, "utf-8")
-    (folder / "bad.csv").write_text(
-        f'time,"{JOINTS[0]}","{JOINTS[1].replace(chr(34), chr(34) * 2)}"\n0,0,0.5\n0.4,0.6,0.1\n0.8,1.4,0.1\n'
-    )
+    head = ",".join(f'"position_{name.replace(chr(34), 2 * chr(34))}"' for name in JOINTS)
+    rows = "0,0,0.5\n0.4,0.6,0.1\n0.8,1.4,0.1\n"
+    (folder / "bad.csv").write_text(f"time,{head}\n{rows}", "utf-8")
     given = ["view", str(folder / "planted.toml"), str(folder / "bad.csv"), "--no-open"]
     rungs = "free_form,free_form_lower,family"
     assert main([*given, "--rungs", rungs, "--out", str(folder / "view.html")]) == 3
@@ -57,7 +57,7 @@ def suite(folder: Path) -> Path:
     return folder / "index.html"
 
 
-@pytest.mark.slow
+@pytest.mark.long
 @pytest.mark.parametrize("make", [chapter, viewed, graded, suite], ids=lambda make: make.__name__)
 def test_the_page_reads_well_in_both_themes_and_widths(
     make: Callable[[Path], Path], open_page: Open, tmp_path: Path

@@ -91,7 +91,7 @@ def test_cells_are_few_and_short(path: Path) -> None:
     assert all(len(cell.source.splitlines()) <= LONGEST_CELL for cell in cells)
 
 
-@pytest.mark.slow
+@pytest.mark.long
 @pytest.mark.filterwarnings("default")  # of the notebook machinery, not ours
 @each
 def test_it_gives_again_what_is_stored(path: Path, tmp_path: Path) -> None:

@@ -138,7 +138,7 @@ longest = ["0.9500", "0.9500", "0.9500"]
     assert kinds('"3"') == set()
 
 
-@pytest.mark.slow
+@pytest.mark.long
 def test_rounded_limits_alone_never_make_a_verdict() -> None:
     rng, optima = np.random.default_rng(23), []
     for _ in range(20):

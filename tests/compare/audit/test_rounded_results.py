@@ -58,7 +58,7 @@ def verdicts(paper: Paper) -> list[Finding]:
     return found + claims_of(paper) + total_findings(paper, paper.totals)
 
 
-@pytest.mark.slow
+@pytest.mark.long
 def test_rounding_alone_never_makes_a_verdict() -> None:
     rng = np.random.default_rng(17)
     naive = unreadable = 0

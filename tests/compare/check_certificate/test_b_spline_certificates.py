@@ -13,6 +13,8 @@ from compare.check_certificate.answers import Refused
 from compare.check_certificate.verify import verify
 from formulations import Limits, Problem, family_bound
 
+pytestmark = pytest.mark.long  # the search that writes them is compiled first
+
 Spoil = Callable[[dict[str, Any]], None]
 
 

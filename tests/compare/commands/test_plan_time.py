@@ -43,14 +43,16 @@ signal.signal(signal.SIGINT, signal.default_int_handler)
 from compare.__main__ import main
 sys.exit(main(sys.argv[4:]))
 """
-_SEARCH = {"plan": "find_motion", "solve": "ladder"}
+_SEARCH = {
+    "plan": ("compare.commands.motions.plan", "find_motion"),
+    "solve": ("compare.commands.motions.climbing", "ladder"),
+}
 
 
 def interrupted(after: float, command: str, *arguments: str) -> subprocess.CompletedProcess[str]:
     """Run a command that is interrupted ``after`` seconds of its search, which would take far longer."""
-    where = [f"compare.commands.motions.{command}", _SEARCH[command]]
     return subprocess.run(
-        [sys.executable, "-c", _INTERRUPTED, str(after), *where, command, *arguments],
+        [sys.executable, "-c", _INTERRUPTED, str(after), *_SEARCH[command], command, *arguments],
         capture_output=True, text=True, cwd=ROOT, env={**os.environ}, timeout=60.0, check=False,
     )  # fmt: skip
 

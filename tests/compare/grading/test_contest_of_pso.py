@@ -29,7 +29,7 @@ def losses(problem: Any, seeds: range, budget: int) -> np.ndarray:
     return np.log10(np.maximum(np.array(found) / least - 1.0, 1e-7))
 
 
-@pytest.mark.slow
+@pytest.mark.long
 def test_pso_is_equal_to_itself_20_of_20_times_and_half_its_budget_is_worse() -> None:
     problems = variants(36)
     whole = {name: losses(one, range(3 * SEEDS), BUDGET) for name, one in problems.items()}

@@ -141,6 +141,7 @@ def test_holm_by_hand() -> None:
     assert holm([]).size == 0
 
 
+@settings(max_examples=20)  # statsmodels collects garbage at each call
 @given(st.lists(st.floats(0, 1), min_size=1, max_size=20))
 def test_holm_never_lowers_a_value_and_keeps_their_order(p: list[float]) -> None:
     found = holm(p)

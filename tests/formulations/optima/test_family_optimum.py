@@ -202,6 +202,7 @@ def test_no_random_candidate_is_faster_in_longer_splines(problem: Problem) -> No
     assert found.seconds <= scaled_seconds(problem, t).min() * (1.0 + 1e-9)
 
 
+@pytest.mark.long
 @pytest.mark.parametrize("case", SOLVED)
 def test_no_neighbour_of_a_shipped_optimum_is_faster(case: str) -> None:
     found = optimum(case)

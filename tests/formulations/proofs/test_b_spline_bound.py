@@ -222,6 +222,7 @@ def test_a_joint_gets_no_farther_than_its_greatest_velocity_allows(seed: int) ->
     assert truth - 1e-6 * V * T <= found <= truth + 1e-6 * V * T
 
 
+@pytest.mark.long
 def test_fewer_numbers_of_segments_down_to_one() -> None:
     rng = np.random.default_rng(5)
     for degree in (3, 5):
@@ -265,7 +266,7 @@ def follow_splines(problem: Problem, base: Any, above: float, shrink: float, rng
     return len(points), *followed(proof, times)
 
 
-@pytest.mark.slow
+@pytest.mark.long
 @DEGREES
 def test_no_feasible_spline_is_lost_by_a_discard_or_a_cut(degree: int) -> None:
     rng = np.random.default_rng(17)

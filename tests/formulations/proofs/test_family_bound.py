@@ -44,7 +44,7 @@ def test_every_shipped_3_5_3_case_is_proved_together_and_joint_by_joint(case: st
         holds(family_bound(each), 1e-7)
 
 
-@pytest.mark.slow
+@pytest.mark.long
 def test_bagging_is_proved() -> None:
     holds(family_bound(load("bagging"), gap=1e-6, time_limit=20.0), 1e-6)
 

@@ -35,7 +35,11 @@ from metaheuristics import ALGORITHMS
 
 
 @pytest.mark.slow
-@pytest.mark.parametrize("family", ["quintic", "b-spline-3", "b-spline-5"])
+@pytest.mark.parametrize(
+    "family",
+    # compiling the search of B-splines takes most of a minute
+    ["quintic", *(pytest.param(f"b-spline-{d}", marks=pytest.mark.long) for d in (3, 5))],
+)
 def test_no_motion_of_a_family_is_faster_than_its_bound(family: str) -> None:
     rng = np.random.default_rng(3)
     for kind, spread in (("V", 0.7), ("VA", 0.4), ("VAJ", 0.2)):
