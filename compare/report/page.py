@@ -118,7 +118,7 @@ def render(pool: Engine, folder: Path, problems: dict[str, Problem], settings: S
 
 def _files(case: str, figure: str) -> list[tuple[str, str]]:
     """Links to a figure drawn for papers."""
-    return [(ending.upper(), f"figures/{case}-{figure}.{ending}") for ending in ("svg", "png")]
+    return [("SVG", f"figures/{case}-{figure}.svg")]
 
 
 def papers_context(store: Store, folder: Path, cases: list[str]) -> dict[str, Any]:

@@ -31,7 +31,7 @@ def draw_case(
     rows: Sequence[Row],
     traces: Mapping[RunKey, list[Trace]],
 ) -> list[str]:
-    """Draw every figure of one case into DIR/figures: as SVG and PNG; the moving arm as SVG.
+    """Draw every figure of one case into DIR/figures: as SVG; the moving arm too.
 
     Parameters
     ----------
@@ -65,10 +65,7 @@ def draw_case(
     for name, make in draw.items():
         figure = make()
         with mpl.rc_context(STYLE):
-            figure.draw_without_rendering()
-            figure.set_layout_engine("none")  # the layout is computed once for both files
             figure.savefig(target / f"{case}-{name}.svg", metadata={"Date": None})
-            figure.savefig(target / f"{case}-{name}.png")
         plt.close(figure)
         names.append(f"{case}-{name}")
     durations = ladder["durations"].get("family")

@@ -111,6 +111,7 @@ def spline_at(problem: Problem, t: Any, degree: int) -> tuple[Any, BSpline]:
     return knots, BSpline(knots, np.linalg.solve(np.vstack(rows), np.vstack(data)), degree)
 
 
+@pytest.mark.long
 @DEGREES
 @settings(max_examples=40)
 @given(seed=st.integers(0, 2**32 - 1))
