@@ -17,6 +17,7 @@ from compare.files import write_text
 from compare.report.frame import TABLES, environment
 from compare.report.overview import shade
 from compare.report.page import faults_of, swarms_in
+from compare.report.words import percent
 from metaheuristics import GROUPS
 
 LEVELS = (1e-2, 1e-4, 1e-6)  # gaps whose share of instances is shown
@@ -80,6 +81,31 @@ def standing(
     )
 
 
+def answer(standings: dict[tuple[Split, str, str], Standing]) -> str:
+    """Say which swarm is nearest to the optimum, on the held-out instances if there are some.
+
+    Parameters
+    ----------
+    standings : dict of (split, variant, swarm) to Standing
+
+    Returns
+    -------
+    str
+    """
+    for split in (Split.held_out, Split.open):
+        found = [
+            (standing.gap, swarm, variant, standing.instances)
+            for (where, variant, swarm), standing in standings.items()
+            if where is split and standing.gap is not None
+        ]
+        if found:
+            gap, swarm, variant, count = min(found)
+            over = f"{count} {split} instance{'s' if count > 1 else ''}"
+            best = f"{swarm} ({variant} coding) is nearest to the optimum"
+            return f"{best} over {over}: median gap {percent(gap)}"
+    return "No swarm has a verified motion on half of the instances"
+
+
 def render_suite(store: Store, instances: Sequence[Instance], settings: Settings) -> Path:
     """Write index.html and report.md of a suite, from the store alone.
 
@@ -101,17 +127,19 @@ def render_suite(store: Store, instances: Sequence[Instance], settings: Settings
     variants = list(dict.fromkeys(row.variant for row in rows))
     swarms = swarms_in(rows)
     splits = {split: _solved(instances, ladders, split) for split in (Split.held_out, Split.open)}
+    standings = {
+        (split, variant, swarm): standing(found, cases, (variant, swarm))
+        for split, cases in splits.items()
+        for variant in variants
+        for swarm in swarms
+    }
     context = {
         "settings": settings,
         "levels": LEVELS,
         "variants": variants,
         "splits": {split: cases for split, cases in splits.items() if cases},
-        "standings": {
-            (split, variant, swarm): standing(found, cases, (variant, swarm))
-            for split, cases in splits.items()
-            for variant in variants
-            for swarm in swarms
-        },
+        "standings": standings,
+        "answer": answer(standings),
         "swarms": swarms,
         "groups": {
             title: members

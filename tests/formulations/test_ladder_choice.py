@@ -51,7 +51,9 @@ def test_no_time_leaves_rows_that_say_so_and_an_interrupt_too() -> None:
 
 @pytest.mark.long
 def test_a_time_limit_holds_for_all_rungs_together() -> None:
-    ladder(load("z1"), time_limit=2.0)  # the search for the bound of B-splines is compiled at its first use
+    ladder(
+        load("z1"), time_limit=2.0
+    )  # the search for the bound of B-splines is compiled at its first use
     begun = time.perf_counter()
     found = ladder(load("z1"), time_limit=2.0)
     assert time.perf_counter() - begun < 20.0

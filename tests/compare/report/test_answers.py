@@ -10,10 +10,12 @@ from graded_runs import graded
 
 from compare.benchmark.protocol import Track
 from compare.benchmark.records.rows import Row, RowStatus
+from compare.benchmark.suite.instance import Split
 from compare.benchmark.summaries import summaries
 from compare.report.answers import answers, headline
 from compare.report.overview import cells, columns, proof_words, shade, to_best_known
 from compare.report.papers_at_a_glance import CANNOT_BE_JUDGED, PaperAtAGlance
+from compare.report.suite_page import Standing, answer
 from formulations import load
 
 
@@ -135,3 +137,17 @@ def test_columns_say_their_evaluations_and_cells_mark_failed_runs(row: Row) -> N
     assert [shade(gap) for gap in (None, 0.0, 1e-5, 1e-3, 0.03, 0.3)] == [
         "none", "g0", "g1", "g2", "g3", "g4",
     ]  # fmt: skip
+
+
+def test_the_suite_says_who_is_nearest_on_the_held_out_instances() -> None:
+    standings = {
+        (Split.open, "stretched", "a"): Standing(9, (), 0.0),
+        (Split.held_out, "stretched", "a"): Standing(3, (), 0.02),
+        (Split.held_out, "shared", "b"): Standing(3, (), 0.01),
+        (Split.held_out, "shared", "c"): Standing(3, (), None),
+    }
+    said = "b (shared coding) is nearest to the optimum over 3 held-out instances: median gap 1 %"
+    assert answer(standings) == said
+    del standings[Split.held_out, "stretched", "a"], standings[Split.held_out, "shared", "b"]
+    assert "a (stretched coding)" in answer(standings)
+    assert answer({}) == "No swarm has a verified motion on half of the instances"
