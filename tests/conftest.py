@@ -40,7 +40,7 @@ settings.load_profile("timebound")
 
 @pytest.hookimpl(trylast=True)
 def pytest_collection_modifyitems(items: list[pytest.Item]) -> None:
-    """The proof of z1, then the files with the most slow tests: a worker that began one last would end alone."""
+    """The proof of z1 first, then the files with most slow tests: what begins last would end alone."""
     slow = Counter(
         item.path for item in items if {"slow", "long"} & {m.name for m in item.iter_markers()}
     )
