@@ -22,7 +22,7 @@ from formulations import CASES, FAMILIES, RUNGS
 from formulations.problem.toml_file.keys import LIMIT_KEYS, POSE_KEYS, PROBLEM_KEYS
 from metaheuristics import ALGORITHMS
 
-pytestmark = pytest.mark.slow
+pytestmark = pytest.mark.long
 ROOT = Path(__file__).parents[2]
 BUILD = """
 import socket, sys

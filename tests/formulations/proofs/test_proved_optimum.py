@@ -58,8 +58,9 @@ def test_the_papers_cases_have_the_optimum_of_many_starts(case: str) -> None:
             as_good_as_many_starts(alone, None)
 
 
+@pytest.mark.long
 @pytest.mark.parametrize("limited", ["V", "VA", "VAJ"])
-@pytest.mark.parametrize("position", [False, pytest.param(True, marks=pytest.mark.long)])
+@pytest.mark.parametrize("position", [False, True])
 @pytest.mark.parametrize("family", list(PROVERS))
 def test_random_problems_have_the_optimum_of_many_starts(
     family: str, position: bool, limited: str

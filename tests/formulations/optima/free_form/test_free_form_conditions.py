@@ -161,6 +161,7 @@ def test_a_passage_a_little_later_than_that_of_the_fastest_motion_is_met() -> No
     assert found.seconds <= late * fastest.seconds * (1.0 + 1e-6)
 
 
+@pytest.mark.long
 def test_a_refusal_names_a_time_that_is_then_possible() -> None:
     problem = ten(1)
     with pytest.raises(NoFeasibleMotion, match="the nearest one found passes waypoint 5 at") as refusal:

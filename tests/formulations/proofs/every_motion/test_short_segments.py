@@ -60,6 +60,7 @@ def with_short_segments(draw: st.DrawFn) -> Problem:
     return Problem.of(waypoints, Limits.of(draw(SIZE), draw(SIZE), jerk * draw(SIZE), dof=dof))
 
 
+@pytest.mark.long
 @given(problem=with_short_segments())
 @settings(max_examples=20)
 def test_short_segments_among_long_ones(problem: Problem) -> None:
