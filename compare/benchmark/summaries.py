@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Collection, Iterable, Sequence
+from collections.abc import Collection, Iterable, Mapping, Sequence
 from dataclasses import dataclass
 
 import numpy as np
@@ -47,6 +47,29 @@ class Summary:
     most: float | None
     claimed_gap: float | None
     stretch: float | None
+
+    @property
+    def gap_of_most(self) -> float | None:
+        """The median gap; None where half of the runs or more have no verified motion, and so no median."""
+        return self.gap if 2 * self.unsolved < self.seeds else None
+
+
+def by_variant_and_swarm(rows: Iterable[Row]) -> dict[tuple[str, str], list[Row]]:
+    """Group rows of one case.
+
+    Parameters
+    ----------
+    rows : iterable of Row
+
+    Returns
+    -------
+    dict of (variant, swarm) to list of Row
+        In the order in which the rows name them first.
+    """
+    groups: dict[tuple[str, str], list[Row]] = {}
+    for row in rows:
+        groups.setdefault((row.variant, row.swarm), []).append(row)
+    return groups
 
 
 def summaries(
@@ -155,13 +178,31 @@ def convergence(
         25, 50 and 75 %; infinite while too few runs have found a feasible point.
     """
     grid = np.unique(np.geomspace(1, budget, points).round())
-    gaps = []
-    for traces in runs:
-        share = np.ceil(grid / len(traces))  # of each joint; they search side by side
-        each = [best_after(trace, share) / optima[trace.joint] - 1.0 for trace in traces]
-        gaps.append(np.mean(each, axis=0))
+    gaps = [gaps_after(traces, grid, optima) for traces in runs]
     quartiles = np.quantile(np.array(gaps), [0.25, 0.5, 0.75], axis=0, method="nearest")
     return grid, quartiles
+
+
+def gaps_after(traces: Sequence[Trace], grid: Array, optima: Mapping[int, float]) -> Array:
+    """Return the gap of one run after given numbers of evaluations.
+
+    Parameters
+    ----------
+    traces : sequence of Trace
+        Those of the run; of several joints the mean counts.
+    grid : Array, shape (m,)
+        Numbers of evaluations over the whole motion.
+    optima : mapping of int to float [s]
+        As in ``convergence``.
+
+    Returns
+    -------
+    Array, shape (m,)
+        Infinite while a joint has no feasible point.
+    """
+    share = np.ceil(grid / len(traces))  # of each joint; they search side by side
+    each = [best_after(trace, share) / optima[trace.joint] - 1.0 for trace in traces]
+    return np.array(np.mean(each, axis=0))
 
 
 def best_after(trace: Trace, grid: Array) -> Array:

@@ -51,62 +51,45 @@ def answers(
 
 
 def _reaching(found: Mapping[tuple[str, str, str], Summary]) -> Answer | None:
-    """Which swarms reach the optimum on every case, by variant of a coding."""
+    """Which swarms reach the optimum on every case, by variant of a coding, and which is nearest."""
     cases = {case for case, _, _ in found}
-    swarms = list(dict.fromkeys(swarm for _, _, swarm in found))
-    reach: dict[str, list[str]] = {}
-    for variant in dict.fromkeys(variant for _, variant, _ in found):
-        reach[variant] = [
-            swarm
-            for swarm in swarms
-            if all(_reached(found.get((case, variant, swarm))) for case in cases)
-        ]
-    if not reach:
+    swarms = {swarm for _, _, swarm in found}
+    variants = list(dict.fromkeys(variant for _, variant, _ in found))
+    if not variants:
         return None
+    worst = _worst_gaps(found, len(cases))
+    reach = {
+        variant: [
+            swarm for (where, swarm), gap in worst.items() if where == variant and gap <= AT_OPTIMUM
+        ]
+        for variant in variants
+    }
     variant = max(reach, key=lambda name: len(reach[name]))
-    others = "; ".join(
-        f"{name}: {len(who) or 'none'}" for name, who in reach.items() if name != variant
-    )
-    where = "on the one arm" if len(cases) == 1 else f"on all {len(cases)} arms"
+    others = "; ".join(f"{name}: {len(reach[name]) or 'none'}" for name in reach if name != variant)
     detail = f"In the {variant} coding: {', '.join(reach[variant]) or 'none'}."
     if others:
         detail += f" In the others: {others}."
     detail += f" Reached: the median gap of the seeds is at most {percent(AT_OPTIMUM)}."
-    if nearest := _nearest(found, cases):
-        detail += f" Nearest on its worst arm: {nearest}."
+    if worst:
+        coding, swarm = min(worst, key=lambda key: worst[key])
+        detail += (
+            f" Nearest on its worst arm: {swarm} ({coding} coding), {percent(worst[coding, swarm])}."
+        )
     count = len(reach[variant])
+    where = "on the one arm" if len(cases) == 1 else f"on all {len(cases)} arms"
     text = f"{count or 'None'} of {len(swarms)} swarms reach{'es' if count < 2 else ''} the optimum {where}"
     return Answer(text, detail, "overview")
 
 
-def _nearest(found: Mapping[tuple[str, str, str], Summary], cases: set[str]) -> str:
-    """The swarm and variant whose largest median gap over the cases is least; empty if none ran on all."""
-    worst = {
-        (variant, swarm): max(gaps)
-        for _, variant, swarm in found
-        if len(gaps := _gaps(found, cases, variant, swarm)) == len(cases)
-    }
-    if not worst:
-        return ""
-    variant, swarm = min(worst, key=lambda key: worst[key])
-    return f"{swarm} ({variant} coding), {percent(worst[variant, swarm])}"
-
-
-def _gaps(
-    found: Mapping[tuple[str, str, str], Summary], cases: set[str], variant: str, swarm: str
-) -> list[float]:
-    """Median gaps on the cases where at least half of the seeds have a verified motion."""
-    mine = [found[case, variant, swarm] for case in cases if (case, variant, swarm) in found]
-    return [s.gap for s in mine if s.gap is not None and 2 * s.unsolved < s.seeds]
-
-
-def _reached(summary: Summary | None) -> bool:
-    return (
-        summary is not None
-        and summary.gap is not None
-        and 2 * summary.unsolved < summary.seeds
-        and summary.gap <= AT_OPTIMUM
-    )
+def _worst_gaps(
+    found: Mapping[tuple[str, str, str], Summary], cases: int
+) -> dict[tuple[str, str], float]:
+    """The largest median gap over the cases, by variant and swarm, of those that have one on every case."""
+    gaps: dict[tuple[str, str], list[float]] = {}
+    for (_, variant, swarm), summary in found.items():
+        if summary.gap_of_most is not None:
+            gaps.setdefault((variant, swarm), []).append(summary.gap_of_most)
+    return {key: max(mine) for key, mine in gaps.items() if len(mine) == cases}
 
 
 def _claims(rows: Sequence[Row]) -> Answer | None:

@@ -69,8 +69,7 @@ def standing(
     if missing or not cases:
         return Standing(len(cases), missing)
     mine = [found[(case, *key)] for case in cases]
-    # with half of the runs unsolved there is no median
-    gaps = [s.gap if s.gap is not None and 2 * s.unsolved < s.seeds else float("inf") for s in mine]
+    gaps = [float("inf") if s.gap_of_most is None else s.gap_of_most for s in mine]
     middle = median(gaps)
     return Standing(
         len(cases),

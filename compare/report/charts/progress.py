@@ -11,7 +11,7 @@ from compare.benchmark.grade import Trace
 from compare.benchmark.ladders import LadderRecord
 from compare.benchmark.protocol import targets
 from compare.benchmark.records.rows import Row, RunKey
-from compare.benchmark.summaries import best_after, convergence
+from compare.benchmark.summaries import by_variant_and_swarm, convergence, gaps_after
 from formulations.problem.arrays import Array
 
 _POINTS = 40  # of a curve
@@ -42,11 +42,8 @@ def progress_chart(
     if optimum is not None:
         optima[-1] = optimum
     goals = np.array(targets(optimum / lower - 1.0 if optimum and lower else 0.0))
-    groups: dict[tuple[str, str], list[Row]] = {}
-    for row in rows:
-        groups.setdefault((row.variant, row.swarm), []).append(row)
     curves: list[dict[str, Any]] = []
-    for (variant, swarm), mine in groups.items():
+    for (variant, swarm), mine in by_variant_and_swarm(rows).items():
         runs = [traces[row.key] for row in mine if row.key in traces]
         if not runs or optimum is None:
             continue
@@ -68,7 +65,7 @@ def progress_chart(
             f"At the end of its budget {best['swarm']} ({best['variant']} coding) has reached "
             f"{100.0 * best['reached'][-1]:.0f} % of all runs and targets, more than any other."
         )
-    return {"curves": curves, "targets": [float(goals[0]), float(goals[-1])], "alt": alt}
+    return {"curves": curves, "alt": alt}
 
 
 def _reached(
@@ -77,9 +74,7 @@ def _reached(
     """Share of (run, target) pairs that are reached after each number of evaluations, (m,)."""
     total = np.zeros(len(at))
     for traces in runs:
-        share = np.ceil(at / len(traces))
-        gaps = np.mean([best_after(t, share) / optima[t.joint] - 1.0 for t in traces], axis=0)
-        total += (gaps[:, None] <= goals).mean(axis=1)
+        total += (gaps_after(traces, at, optima)[:, None] <= goals).mean(axis=1)
     return total / started
 
 

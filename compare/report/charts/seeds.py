@@ -6,7 +6,7 @@ from collections.abc import Sequence
 from typing import Any
 
 from compare.benchmark.records.rows import Row
-from compare.benchmark.summaries import gaps_of, median
+from compare.benchmark.summaries import by_variant_and_swarm, gaps_of, median
 from compare.report.words import percent
 
 
@@ -23,9 +23,7 @@ def seeds_chart(rows: Sequence[Row]) -> dict[str, Any]:
         ``swarms``, in the order of the rows, and ``lanes``: of each variant and swarm the seeds, gaps [1]
         (None without a verified motion) and whether the claimed motion keeps its limits.
     """
-    groups: dict[tuple[str, str], list[Row]] = {}
-    for row in rows:
-        groups.setdefault((row.variant, row.swarm), []).append(row)
+    groups = by_variant_and_swarm(rows)
     lanes = [
         {
             "variant": variant,
