@@ -11,7 +11,7 @@ import os
 from collections.abc import Callable, Iterable, Sequence
 from math import isfinite
 from pathlib import Path
-from typing import Annotated, Any
+from typing import Annotated, Any, Literal
 
 from cyclopts import Parameter, Token
 
@@ -204,6 +204,8 @@ Swarms = Annotated[
 Swarm = Annotated[
     str, Parameter(name="--swarm", help=f"An algorithm: {_OWN}.", converter=_read_swarm, n_tokens=1)
 ]
+Interpolation = Literal["auto", "linear", "cubic", "quintic"]
+Tolerance = Annotated[float, Parameter(name="--tolerance", metavar="RAD", validator=positive)]
 ProblemFile = Annotated[
     str, Parameter(name="FILE", help="A problem file (TOML), or the name of a shipped case.")
 ]

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from typing import Annotated, Literal
+from typing import Annotated
 
 from cyclopts import Parameter
 
@@ -14,7 +14,7 @@ from compare.commands.motions.problem_options import (
     OwnRobotOptions,
     problem_of,
 )
-from compare.commands.options import Json, positive
+from compare.commands.options import Interpolation, Json, Tolerance
 from compare.report.judged import FoundTable, distance, fault_tables, holding, mending, opening
 from compare.screen import show, stages, table
 from formulations import InputError
@@ -36,10 +36,8 @@ def check_motion(
     *,
     own: OwnRobotOptions = None,
     asked: ConditionOptions = None,
-    interpolation: Literal["auto", "linear", "cubic", "quintic"] = "auto",
-    tolerance: Annotated[
-        float, Parameter(name="--tolerance", metavar="RAD", validator=positive)
-    ] = WAYPOINT_TOLERANCE,
+    interpolation: Interpolation = "auto",
+    tolerance: Tolerance = WAYPOINT_TOLERANCE,
     bound: Annotated[bool, Parameter(negative="--no-bound")] = True,
     json: Json = None,
 ) -> int:

@@ -6,7 +6,7 @@ import re
 import sys
 import webbrowser
 from pathlib import Path
-from typing import Annotated, Literal
+from typing import Annotated
 
 from cyclopts import Parameter
 
@@ -20,7 +20,7 @@ from compare.commands.motions.problem_options import (
     known_arm,
     problem_of,
 )
-from compare.commands.options import Gap, Rungs, TimeLimit, Without, positive, writable
+from compare.commands.options import Gap, Interpolation, Rungs, TimeLimit, Tolerance, Without, writable
 from compare.files import output_folder, write_text
 from compare.interrupts import ctrl_c_stops
 from compare.report.view_page import view_page
@@ -48,10 +48,8 @@ def view(
     *,
     own: OwnRobotOptions = None,
     asked: ConditionOptions = None,
-    interpolation: Literal["auto", "linear", "cubic", "quintic"] = "auto",
-    tolerance: Annotated[
-        float, Parameter(name="--tolerance", metavar="RAD", validator=positive)
-    ] = WAYPOINT_TOLERANCE,
+    interpolation: Interpolation = "auto",
+    tolerance: Tolerance = WAYPOINT_TOLERANCE,
     out: Annotated[str | None, Parameter(metavar="PAGE", validator=writable)] = None,
     show: Annotated[bool | None, Parameter(name="--open", negative="--no-open")] = None,
     gap: Gap = 1e-3,
