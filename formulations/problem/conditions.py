@@ -1,32 +1,53 @@
-"""Conditions beyond the problem: passage times, stops, velocities at the ends, limits of single segments."""
+"""Conditions beyond waypoints and limits: zones, times, stops, waits, states at the ends, other limits."""
 
 from __future__ import annotations
 
 from collections.abc import Mapping
-from dataclasses import dataclass, field, replace
+from dataclasses import dataclass, field, fields, replace
+from typing import TYPE_CHECKING, Literal, TypeAlias
 
 import numpy as np
 
 from formulations.problem.arrays import Array
-from formulations.problem.errors import InputError
-from formulations.problem.problem import Limits, Problem
+from formulations.problem.condition_checks import require_fitting
+from formulations.problem.limits import Limits
+
+if TYPE_CHECKING:
+    from formulations.problem.problem import Problem
+
+EndState: TypeAlias = "Array | Literal['free'] | None"
+Interval: TypeAlias = tuple[float, float]
 
 
-@dataclass(frozen=True)
+@dataclass(frozen=True, eq=False)
 class Conditions:
     """Conditions on a motion; all are optional. Waypoints and segments count from 0.
 
     Parameters
     ----------
+    tolerance : mapping of int to Array, shape (dof,)
+        Zones: how far from a waypoint each joint may pass it [rad; m for a prismatic joint].
     passage : mapping of int to float
         Time from the start at which a waypoint is passed [s].
+    windows : mapping of int to (float, float)
+        Earliest and latest time from the start at which a waypoint is passed [s]; the latest may be infinite.
+    segment_times : mapping of int to (float, float)
+        Least and greatest time between a waypoint and the next one [s]; the greatest may be infinite. A wait
+        at the waypoint counts as time before the segment.
     total : float, optional
         Time of the whole motion [s]. The motion asked for is then the smoothest, not the fastest.
     stops : frozenset of int
         Waypoints at which the motion stands still: zero velocity, and zero acceleration for joints with a
         jerk limit, as at both ends.
-    start_velocity, end_velocity : Array, shape (dof,), optional
-        Velocities in place of rest [rad/s; m/s for a prismatic joint].
+    waits : mapping of int to float
+        How long the motion stands still at an inner waypoint [s]. It is passed when the arm arrives there.
+    start_velocity, end_velocity : Array, shape (dof,), or "free", optional
+        Velocities in place of rest [rad/s].
+    start_acceleration, end_acceleration : Array, shape (dof,), or "free", optional
+        Accelerations in place of 0 [rad/s^2]. Joints without a jerk limit have none to be given.
+    cyclic : bool
+        The motion is one turn of a cycle: it ends where it starts, with the velocity and the acceleration of
+        its start, which are free.
     segment_limits : mapping of int to Limits
         Limits that replace the problem's on a segment.
 
@@ -39,18 +60,42 @@ class Conditions:
     {1: 2.5}
     """
 
+    tolerance: Mapping[int, Array] = field(default_factory=dict)
     passage: Mapping[int, float] = field(default_factory=dict)
+    windows: Mapping[int, Interval] = field(default_factory=dict)
+    segment_times: Mapping[int, Interval] = field(default_factory=dict)
     total: float | None = None
     stops: frozenset[int] = frozenset()
-    start_velocity: Array | None = None
-    end_velocity: Array | None = None
+    waits: Mapping[int, float] = field(default_factory=dict)
+    start_velocity: EndState = None
+    end_velocity: EndState = None
+    start_acceleration: EndState = None
+    end_acceleration: EndState = None
+    cyclic: bool = False
     segment_limits: Mapping[int, Limits] = field(default_factory=dict)
+
+    @property
+    def asked(self) -> tuple[str, ...]:
+        """Names of the conditions that are given."""
+        found = []
+        for one in fields(self):
+            value = getattr(self, one.name)
+            given = value is not None if one.name.startswith(("start_", "end_")) else bool(value)
+            if given or (one.name == "total" and value is not None):
+                found.append(one.name)
+        return tuple(found)
 
     @property
     def none(self) -> bool:
         """Whether nothing is asked for."""
-        given = (self.total, self.start_velocity, self.end_velocity)
-        return not (self.passage or self.stops or self.segment_limits) and all(v is None for v in given)
+        return not self.asked
+
+    def __eq__(self, other: object) -> bool:
+        if not isinstance(other, Conditions):
+            return NotImplemented
+        return all(_same(getattr(self, one.name), getattr(other, one.name)) for one in fields(self))
+
+    __hash__ = None  # type: ignore[assignment]  # holds arrays
 
     def without_total(self, problem: Problem) -> Conditions:
         """Drop what fixes the total time, so that the fastest motion under the others can be asked for.
@@ -80,83 +125,34 @@ class Conditions:
         InputError
             In one line with key and value.
         """
-        last = problem.n_segments
-        for key, waypoints in (("passage", self.passage), ("stops", self.stops)):
-            for waypoint in waypoints:
-                _require_index(f"conditions.{key}: waypoint", waypoint, last)
-        for segment, limits in self.segment_limits.items():
-            _require_index("conditions.segment_limits: segment", segment, last - 1)
-            self._validate_limits(problem, segment, limits)
-        self._validate_times(problem)
-        for key, velocity, segment, waypoint in (
-            ("start_velocity", self.start_velocity, 0, 0),
-            ("end_velocity", self.end_velocity, last - 1, last),
-        ):
-            if velocity is None:
-                continue
-            found = np.asarray(velocity, dtype=np.float64)
-            if found.shape != (problem.dof,):
-                raise InputError(f"conditions.{key}: expected {problem.dof} values, got {found.shape}")
-            for joint, (value, limit) in enumerate(
-                zip(found, self.limits(problem)[segment].velocity, strict=True)
-            ):
-                if not abs(value) <= limit:  # also true for NaN
-                    raise InputError(
-                        f"conditions.{key}: {problem.joint_name(joint)}: "
-                        f"{problem.amount(value, joint, 1)} is over the limit "
-                        f"{problem.amount(limit, joint, 1)}"
-                    )
-            if waypoint in self.stops and found.any():
-                raise InputError(f"conditions.{key}: {found} at waypoint {waypoint}, which is a stop")
+        require_fitting(self, problem)
 
-    def _validate_times(self, problem: Problem) -> None:
-        if self.total is not None and not (np.isfinite(self.total) and self.total > 0.0):
-            raise InputError(f"conditions.total: {self.total:g} s is not a positive time")
-        before, earlier = 0, 0.0
-        for waypoint, time in sorted(self.passage.items()):
-            if not (np.isfinite(time) and time >= 0.0):
-                raise InputError(f"conditions.passage: waypoint {waypoint}: {time:g} s is no time")
-            if waypoint == 0 and time != 0.0:
-                raise InputError(f"conditions.passage: waypoint 0: {time:g} s, not the start, 0 s")
-            moves = np.ptp(problem.waypoints[before : waypoint + 1], axis=0).any()
-            if time < earlier or (moves and time <= earlier):
-                raise InputError(
-                    f"conditions.passage: waypoint {waypoint}: {time:g} s is not after waypoint "
-                    f"{before} at {earlier:g} s"
-                )
-            before, earlier = waypoint, time
-        end = self.passage.get(problem.n_segments)
-        if self.total is not None and end is not None and end != self.total:
-            raise InputError(
-                f"conditions.total: {self.total:g} s, but conditions.passage puts the last waypoint "
-                f"at {end:g} s"
-            )
-        if self.total is not None and earlier > self.total:
-            raise InputError(
-                f"conditions.passage: waypoint {before}: {earlier:g} s is after conditions.total, "
-                f"{self.total:g} s"
-            )
+    def of_joint(self, joint: int) -> Conditions:
+        """Return the conditions on one joint alone.
 
-    def _validate_limits(self, problem: Problem, segment: int, limits: Limits) -> None:
-        where = f"conditions.segment_limits: segment {segment}"
-        try:
-            Problem(
-                problem.waypoints[segment : segment + 2],
-                limits,
-                names=problem.names,
-                units=problem.units,
-            )
-        except InputError as error:
-            raise InputError(f"{where}: {error}") from None
-        for key in ("acceleration", "jerk"):
-            mine, whole = getattr(limits, key), getattr(problem.limits, key)
-            differs = np.isfinite(mine) != np.isfinite(whole)
-            if differs.any():
-                joint = int(differs.argmax())
-                raise InputError(
-                    f"{where}: {key} of {problem.joint_name(joint)} is {mine[joint]:g}, the problem's is "
-                    f"{whole[joint]:g}: both must be finite or neither"
-                )
+        Parameters
+        ----------
+        joint : int
+            Counts from 0.
+
+        Returns
+        -------
+        Conditions
+        """
+        one = slice(joint, joint + 1)
+
+        def mine(value: EndState) -> EndState:
+            return value[one] if isinstance(value, np.ndarray) else value
+
+        return replace(
+            self,
+            tolerance={k: np.asarray(zone)[one] for k, zone in self.tolerance.items()},
+            start_velocity=mine(self.start_velocity),
+            end_velocity=mine(self.end_velocity),
+            start_acceleration=mine(self.start_acceleration),
+            end_acceleration=mine(self.end_acceleration),
+            segment_limits={k: limits.of_joint(joint) for k, limits in self.segment_limits.items()},
+        )
 
     def limits(self, problem: Problem) -> list[Limits]:
         """Return the limits in force on each segment.
@@ -184,7 +180,7 @@ class Conditions:
         Returns
         -------
         Array, shape (3, n_segments, dof)
-            [rad/s, rad/s^2, rad/s^3].
+            Greatest moduli [rad/s, rad/s^2, rad/s^3].
         """
         return np.stack([limits.derivatives for limits in self.limits(problem)], axis=1)
 
@@ -221,11 +217,26 @@ class Conditions:
         Returns
         -------
         Array, shape (2, dof)
-            [rad/s].
+            [rad/s]; NaN where they are free.
         """
-        still = np.zeros(problem.dof)
-        ends = (self.start_velocity, self.end_velocity)
-        return np.stack([still if v is None else np.asarray(v, dtype=np.float64) for v in ends])
+        ends = [_end(value, problem.dof) for value in (self.start_velocity, self.end_velocity)]
+        return np.full((2, problem.dof), np.nan) if self.cyclic else np.stack(ends)
+
+    def end_accelerations(self, problem: Problem) -> Array:
+        """Return the accelerations at the start and at the end.
+
+        Parameters
+        ----------
+        problem : Problem
+            Its number of joints counts.
+
+        Returns
+        -------
+        Array, shape (2, dof)
+            [rad/s^2]; NaN where they are free.
+        """
+        ends = [_end(value, problem.dof) for value in (self.start_acceleration, self.end_acceleration)]
+        return np.full((2, problem.dof), np.nan) if self.cyclic else np.stack(ends)
 
     def times(self, problem: Problem) -> dict[int, float]:
         """Return the waypoints whose time is fixed, the last one if the total time is.
@@ -244,6 +255,19 @@ class Conditions:
         return fixed if self.total is None else {**fixed, problem.n_segments: float(self.total)}
 
 
-def _require_index(what: str, index: int, last: int) -> None:
-    if isinstance(index, bool) or not isinstance(index, int | np.integer) or not 0 <= index <= last:
-        raise InputError(f"{what} {index!r} is not there: 0 to {last}")
+def _end(value: EndState, dof: int) -> Array:
+    """A state at an end, (dof,): 0 where none is given, NaN where it is free."""
+    if value is None:
+        return np.zeros(dof)
+    return np.full(dof, np.nan) if isinstance(value, str) else np.asarray(value, dtype=np.float64)
+
+
+def _same(one: object, other: object) -> bool:
+    """Whether two values of a field are equal, arrays entry by entry."""
+    if isinstance(one, Mapping) and isinstance(other, Mapping):
+        return one.keys() == other.keys() and all(_same(one[key], other[key]) for key in one)
+    if isinstance(one, str) or isinstance(other, str) or one is None or other is None:
+        return one is other or (isinstance(one, str) and one == other)
+    if isinstance(one, Limits | frozenset | bool):
+        return one == other
+    return np.array_equal(np.asarray(one), np.asarray(other))

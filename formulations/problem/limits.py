@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable
+from collections.abc import Iterable, Mapping
 from dataclasses import dataclass
 from typing import Any
 
@@ -19,26 +19,29 @@ from formulations.problem.joint_words import (
     read_units,
     shown_unit,
 )
+from formulations.problem.toml_file.toml_values import known_keys
 
 LIMITED = ("velocity", "acceleration", "jerk", "position")
 
 
 @dataclass(frozen=True)
 class Limits:
-    """Limits of each joint: symmetric ones on the derivatives, and an interval of positions.
+    """Limits of each joint on its velocity, acceleration and jerk, and an interval of positions.
 
     Make them with ``Limits.of``, which validates.
 
     Attributes
     ----------
     velocity : Array, shape (dof,)
-        [rad/s, or m/s for a prismatic joint]; always finite.
+        Greatest speed in either direction [rad/s, or m/s for a prismatic joint]; always finite.
     acceleration, jerk : Array, shape (dof,)
-        [rad/s^2], [rad/s^3]; infinite where unlimited.
+        The same of acceleration and jerk [rad/s^2], [rad/s^3]; infinite where unlimited.
     position : Array, shape (dof, 2)
         Least and greatest position [rad]; infinite where unlimited.
     units : tuple of str
         "rad" or "m" per joint: what a position is in. Empty stands for rad.
+    velocity_interval, acceleration_interval : Array or None, shape (dof, 2)
+        Least (negative) and greatest (positive) value, where the two directions have different limits.
     """
 
     velocity: Array
@@ -46,6 +49,8 @@ class Limits:
     jerk: Array
     position: Array
     units: tuple[str, ...] = ()
+    velocity_interval: Array | None = None
+    acceleration_interval: Array | None = None
 
     @staticmethod
     def of(
@@ -64,7 +69,8 @@ class Limits:
         Parameters
         ----------
         velocity, acceleration, jerk : array_like, shape () or (dof,)
-            [unit/s, unit/s^2, unit/s^3]; the last two may be infinite.
+            [unit/s, unit/s^2, unit/s^3]; the last two may be infinite. Velocity and acceleration may also
+            be pairs, shape (dof, 2): least (negative) and greatest (positive) value of each joint.
         position : array_like, shape (2,) or (dof, 2)
             Least and greatest position [unit].
         dof : int
@@ -96,24 +102,77 @@ class Limits:
         read = _Reader(
             dof, read_angle_unit("unit", unit), read_units(units, dof), read_names(names, dof)
         )
-        speeds = read.per_joint(1, velocity)
+        speeds, speed_interval = read.both_ways(1, velocity)
+        steepest, acceleration_interval = read.both_ways(2, acceleration)
         if not np.isfinite(speeds).all():
             joint = int(np.argmin(np.isfinite(speeds)))
             raise InputError(f"limits.velocity: {read.label(joint)}: {speeds[joint]:g} is not finite")
         return Limits(
             velocity=speeds,
-            acceleration=read.per_joint(2, acceleration),
+            acceleration=steepest,
             jerk=read.per_joint(3, jerk),
             position=read.positions(position),
             units=read.units,
+            velocity_interval=speed_interval,
+            acceleration_interval=acceleration_interval,
         )
 
     def __eq__(self, other: object) -> bool:
         if not isinstance(other, Limits):
             return NotImplemented
         rad = ("rad",) * len(self.velocity)
-        return (self.units or rad) == (other.units or rad) and all(
-            np.array_equal(getattr(self, name), getattr(other, name)) for name in LIMITED
+        return (
+            (self.units or rad) == (other.units or rad)
+            and all(np.array_equal(getattr(self, name), getattr(other, name)) for name in LIMITED)
+            and all(
+                np.array_equal(mine, its)
+                for mine, its in zip(self.intervals, other.intervals, strict=True)
+            )
+        )
+
+    @property
+    def symmetric(self) -> bool:
+        """Whether every joint has the same limits in both directions."""
+        return self.velocity_interval is None and self.acceleration_interval is None
+
+    @property
+    def intervals(self) -> tuple[Array, Array]:
+        """Least and greatest velocity and acceleration, (dof, 2) each [rad/s, rad/s^2]."""
+        found = (
+            (self.velocity, self.velocity_interval),
+            (self.acceleration, self.acceleration_interval),
+        )
+        velocity, acceleration = (
+            np.stack([-both, both], axis=1) if interval is None else interval
+            for both, interval in found
+        )
+        return velocity, acceleration
+
+    def of_joint(self, joint: int) -> Limits:
+        """Return the limits of one joint alone.
+
+        Parameters
+        ----------
+        joint : int
+            Counts from 0.
+
+        Returns
+        -------
+        Limits
+        """
+        one = slice(joint, joint + 1)
+        speeds, steepest = (
+            None if interval is None else interval[one]
+            for interval in (self.velocity_interval, self.acceleration_interval)
+        )
+        return Limits(
+            self.velocity[one],
+            self.acceleration[one],
+            self.jerk[one],
+            self.position[one],
+            self.units[one],
+            speeds,
+            steepest,
         )
 
     @property
@@ -191,6 +250,28 @@ class _Reader:
                 raise InputError(f"{key}: {self.label(joint)}: {given[joint]:g} {unit} is not positive")
         return found
 
+    def both_ways(self, order: int, values: ArrayLike) -> tuple[Array, Array | None]:
+        """The greatest modulus of a derivative, (dof,), and its intervals where pairs were given, (dof, 2)."""
+        key = f"limits.{LIMITED[order - 1]}"
+        given = numbers(key, values)
+        if given.ndim < 2:
+            return self.per_joint(order, given), None
+        if given.shape != (self.dof, 2):
+            raise InputError(
+                f"{key}: expected one number, {self.dof} numbers, or [least, greatest] for each of "
+                f"{self.dof} joints, got {given.shape}"
+            )
+        for joint, (low, high) in enumerate(given):
+            if not low < 0.0 < high:  # also true for NaN
+                unit = shown_unit(self.units[joint], self.angle, order)
+                raise InputError(
+                    f"{key}: {self.label(joint)}: [{low:g}, {high:g}] {unit} does not hold 0 inside"
+                )
+        moduli = self.per_joint(order, np.abs(given).max(axis=1))
+        if (given[:, 0] == -given[:, 1]).all():
+            return moduli, None
+        return moduli, np.asarray(given * factors(self.units, self.angle)[:, None])
+
     def positions(self, values: ArrayLike) -> Array:
         """Intervals of positions, (dof, 2) [rad or m]."""
         key = "limits.position"
@@ -208,3 +289,48 @@ class _Reader:
                 unit = shown_unit(self.units[joint], self.angle)
                 raise InputError(f"{key}: {self.label(joint)}: [{low:g}, {high:g}] {unit} is empty")
         return np.asarray(given * factors(self.units, self.angle)[:, None])
+
+
+def limits_of(
+    given: Limits | Mapping[str, ArrayLike],
+    dof: int,
+    angle: str,
+    units: tuple[str, ...],
+    names: tuple[str, ...],
+) -> Limits:
+    """Read the limits of a problem.
+
+    Parameters
+    ----------
+    given : Limits, or mapping of str to array_like
+        Limits are taken as they are; a mapping holds the arguments of ``Limits.of``.
+    dof : int
+        Number of joints.
+    angle : {"rad", "deg"}
+        Unit of the angles in a mapping.
+    units, names : tuple of str
+        Of the joints.
+
+    Returns
+    -------
+    Limits
+
+    Raises
+    ------
+    InputError
+        In one line.
+    """
+    if isinstance(given, Limits):
+        if len(given.velocity) != dof:
+            raise InputError(
+                f"limits.velocity: {len(given.velocity)} values for {dof} joints in waypoints"
+            )
+        return given
+    if not isinstance(given, Mapping):
+        raise InputError(
+            f"limits: expected Limits or a mapping of {', '.join(LIMITED)}, got {given!r:.50}"
+        )
+    known_keys("limits", dict(given), LIMITED)
+    if "velocity" not in given:
+        raise InputError("limits.velocity: missing")
+    return Limits.of(**given, dof=dof, unit=angle, units=units, names=names)

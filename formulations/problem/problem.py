@@ -10,7 +10,8 @@ import numpy as np
 from numpy.typing import ArrayLike
 
 from formulations.problem.arrays import Array
-from formulations.problem.errors import InputError
+from formulations.problem.conditions import Conditions
+from formulations.problem.errors import InputError, UnsupportedProblem
 from formulations.problem.joint_words import (
     factors,
     joint_label,
@@ -19,8 +20,8 @@ from formulations.problem.joint_words import (
     read_units,
     shown_unit,
 )
-from formulations.problem.limits import LIMITED, Limits, numbers
-from formulations.problem.toml_file.toml_values import known_keys, read_choice, read_text
+from formulations.problem.limits import Limits, limits_of, numbers
+from formulations.problem.toml_file.toml_values import read_choice, read_text
 
 __all__ = ["POSITION_SLACK", "POSITION_TOLERANCE", "Limits", "Problem"]
 
@@ -59,6 +60,8 @@ class Problem:
         "rad" or "m" per joint; those of the limits if left out.
     unit : {"rad", "deg"}
         Unit of the angles that are given.
+    conditions : Conditions, optional
+        What is asked for beyond: zones, times, stops, states at the ends, limits of segments [rad, s].
 
     Attributes
     ----------
@@ -67,6 +70,7 @@ class Problem:
     limits : Limits
     name, title, source, family, display_unit : str
     names, units : tuple of str
+    conditions : Conditions
 
     Raises
     ------
@@ -89,6 +93,7 @@ class Problem:
     display_unit: str = field(compare=False)
     names: tuple[str, ...]
     units: tuple[str, ...]
+    conditions: Conditions
 
     def __init__(
         self,
@@ -103,6 +108,7 @@ class Problem:
         names: Iterable[str] = (),
         units: Iterable[str] = (),
         unit: str = "rad",
+        conditions: Conditions | None = None,
     ) -> None:
         points = numbers("waypoints", waypoints)
         if points.ndim != 2 or points.shape[1] < 1:
@@ -128,11 +134,13 @@ class Problem:
         }
         own = read_units(units or (limits.units if isinstance(limits, Limits) else ()), dof)
         values["units"] = own
-        values["limits"] = _limits(limits, dof, angle, own, values["names"])
+        values["limits"] = limits_of(limits, dof, angle, own, values["names"])
         values["waypoints"] = points * factors(own, angle)
+        values["conditions"] = conditions or Conditions()
         for key, value in values.items():
             object.__setattr__(self, key, value)
         self._require_inside(points, angle)
+        self.conditions.validate(self)
 
     @staticmethod
     def of(waypoints: ArrayLike, limits: Limits | Mapping[str, ArrayLike], **others: Any) -> Problem:
@@ -191,7 +199,7 @@ class Problem:
     def __eq__(self, other: object) -> bool:
         if not isinstance(other, Problem):
             return NotImplemented
-        words = ("name", "family", "title", "source", "names", "units", "limits")
+        words = ("name", "family", "title", "source", "names", "units", "limits", "conditions")
         return np.array_equal(self.waypoints, other.waypoints) and all(
             getattr(self, key) == getattr(other, key) for key in words
         )
@@ -299,7 +307,6 @@ class Problem:
         Problem
         """
         one = slice(index, index + 1)
-        limits = self.limits
         return replace(
             self,
             name=f"{self.name}[{index + 1}]",
@@ -307,40 +314,35 @@ class Problem:
             waypoints=self.waypoints[:, one],
             names=self.names[one],
             units=self.units[one],
-            limits=Limits(
-                limits.velocity[one],
-                limits.acceleration[one],
-                limits.jerk[one],
-                limits.position[one],
-                limits.units[one],
-            ),
+            limits=self.limits.of_joint(index),
+            conditions=self.conditions.of_joint(index),
         )
+
+    @property
+    def plain(self) -> bool:
+        """Whether nothing is asked for but waypoints, and limits are the same in both directions."""
+        return self.conditions.none and self.limits.symmetric
+
+    def require_plain(self, who: str) -> None:
+        """Refuse a problem that asks for more than a method knows.
+
+        Parameters
+        ----------
+        who : str
+            The method, at the start of the message.
+
+        Raises
+        ------
+        UnsupportedProblem
+            The problem has conditions, or limits that differ between the directions.
+        """
+        if not self.conditions.none:
+            named = ", ".join(f"conditions.{key}" for key in self.conditions.asked)
+            raise UnsupportedProblem(f"{who}: knows no conditions, the problem has {named}")
+        if not self.limits.symmetric:
+            raise UnsupportedProblem(f"{who}: knows no limits that differ between the two directions")
 
     @property
     def moving_joints(self) -> list[int]:
         """Indices of the joints that move; the others keep every limit, whatever the durations."""
         return [j for j in range(self.dof) if np.ptp(self.waypoints[:, j]) > 0.0]
-
-
-def _limits(
-    given: Limits | Mapping[str, ArrayLike],
-    dof: int,
-    angle: str,
-    units: tuple[str, ...],
-    names: tuple[str, ...],
-) -> Limits:
-    """Limits of ``dof`` joints; angles of a mapping are in ``angle``."""
-    if isinstance(given, Limits):
-        if len(given.velocity) != dof:
-            raise InputError(
-                f"limits.velocity: {len(given.velocity)} values for {dof} joints in waypoints"
-            )
-        return given
-    if not isinstance(given, Mapping):
-        raise InputError(
-            f"limits: expected Limits or a mapping of {', '.join(LIMITED)}, got {given!r:.50}"
-        )
-    known_keys("limits", dict(given), LIMITED)
-    if "velocity" not in given:
-        raise InputError("limits.velocity: missing")
-    return Limits.of(**given, dof=dof, unit=angle, units=units, names=names)
