@@ -163,6 +163,8 @@ class HorizonSearch:
         relaxed = RelaxedProblem.under(self.demands, self.known)
         if not (np.maximum(relaxed.least, relaxed.at_top_speed) > 0.0).all():
             return Ending(BoundStatus.SIMPLE, "its only two waypoints can coincide")
+        if relaxed.cyclic and len(relaxed.least) < 2:
+            return Ending(BoundStatus.SIMPLE, "all waypoints of the cycle can coincide")
         if not len(relaxed.joints):
             return Ending(
                 BoundStatus.SIMPLE, "with a velocity limit alone, displacement is the infimum itself"
@@ -311,7 +313,7 @@ class HorizonSearch:
             self.durations[relaxed.segments] = solution.x[program.frame.T] * program.frame.typical
             self.savings = np.zeros((3, problem.n_segments, problem.dof))
             self.savings[:, relaxed.segments[:, None], relaxed.joints] = price_limits(
-                problem, program, solution
+                self.demands, program, solution
             )
         self._improve(bound)
 

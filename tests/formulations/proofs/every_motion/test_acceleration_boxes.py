@@ -120,9 +120,9 @@ def test_the_checker_derives_the_same_box(
 ) -> None:
     (d, e), J = ways, 7.0
     durations = np.array([low, np.multiply(low, wider)]).T
-    ours = propagation._upper_sides(
-        np.array([[d]]), np.array([[e]]), np.array([[J], [J]]), durations
-    )[0, 0]
+    ours = propagation._upper_sides(np.array([[d]]), np.array([[e]]), np.array([[J], [J]]), durations)[
+        0, 0
+    ]
     T, U = ((R(float(a)), R(float(b))) for a, b in durations)
     theirs = float(accelerations.greatest(R(d), R(e), R(J), T, U))
     size = J + max(abs(d), abs(e)) / min(low) ** 2
