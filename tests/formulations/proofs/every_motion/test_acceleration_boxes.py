@@ -20,7 +20,7 @@ from scipy.optimize import linprog
 
 from compare.check_certificate.answers import Refused
 from compare.check_certificate.balls import R
-from compare.check_certificate.families import accelerations
+from compare.check_certificate.families.every_motion import accelerations
 from compare.check_certificate.verify import verify
 from formulations import Problem, check, free_form, free_form_bound
 from formulations.problem.arrays import Array
@@ -124,7 +124,7 @@ def test_the_checker_derives_the_same_box(
         0, 0
     ]
     T, U = ((R(float(a)), R(float(b))) for a, b in durations)
-    theirs = float(accelerations.greatest(R(d), R(e), R(J), T, U))
+    theirs = float(accelerations.greatest(R(d), R(e), (R(J), R(J)), T, U))
     size = J + max(abs(d), abs(e)) / min(low) ** 2
     assert theirs <= ours <= theirs + 1e-13 * size
 
