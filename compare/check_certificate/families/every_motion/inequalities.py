@@ -1,6 +1,6 @@
 """Inequalities that every motion keeps, built anew.
 
-Variables as of ``frame``; s1 .. s6 ascend in [0, 1]. T is in [l, h], a in an interval with an end f, and e
+Variables as of ``setting``; s1 .. s6 ascend in [0, 1]. T is in [l, h], a in an interval with an end f, and e
 too. The letters V and A mean the limits in the direction of the sign of a row, or against it:
 
     h   sum T <= H - waits                      b, l   an arrival is not too early, not too late
@@ -22,7 +22,7 @@ from typing import Any
 
 from compare.check_certificate.answers import BadInput, need
 from compare.check_certificate.balls import Interval, R, most
-from compare.check_certificate.families.every_motion.frame import Frame, Variable
+from compare.check_certificate.families.every_motion.setting import Setting, Variable
 from compare.check_certificate.reading import index, number
 
 WIDTHS = {
@@ -31,7 +31,7 @@ WIDTHS = {
 Inequality = tuple[dict[Variable, Any], Any]
 
 
-class Inequalities(Frame):
+class Inequalities(Setting):
     """Builds rows in the boxes that are in force."""
 
     _sums: tuple[dict[Variable, Interval], dict[int, Any]] | None = None
