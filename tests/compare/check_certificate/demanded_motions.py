@@ -67,7 +67,7 @@ class Scenario:
 def scenario(
     rng: np.random.Generator, ends: str, *, n: int = 4, dof: int = 2, times: str = "some"
 ) -> Scenario:
-    """Make a random motion with the given ends, and demands that hold it; times: some, none or all durations."""
+    """Make a random motion with the given ends, and demands that hold it; times: some, none or all."""
     jerky = rng.random(dof) < 0.8
     waits = np.where(rng.random(n + 1) < 0.2, rng.uniform(0.1, 0.6, n + 1), 0.0)
     waits[[0, -1]] = 0.0

@@ -88,7 +88,7 @@ def solved(oracle: Oracle, raws: list[Any], cost: dict[Key, float] | None = None
 
 
 def contradiction(oracle: Oracle, raws: list[Any]) -> Any:
-    """The least excess at which all rows hold, relative to their terms, and what proves it: 0 where they hold."""
+    """The least excess at which all rows hold, relative to their terms, and what proves it."""
     A, b, keys = _program(oracle, raws)
     size = np.maximum(abs(A).max(axis=1).toarray().ravel(), 1e-9)
     A = hstack([diags(1.0 / size) @ A, -np.ones((len(raws), 1))])

@@ -15,8 +15,8 @@ from compare.check_certificate.answers import BadInput, Refused, need
 from compare.check_certificate.balls import R, least, most
 from compare.check_certificate.claim import Claim
 from compare.check_certificate.families.every_motion.accelerations import greatest
-from compare.check_certificate.families.every_motion.setting import Variable
 from compare.check_certificate.families.every_motion.inequalities import Inequalities
+from compare.check_certificate.families.every_motion.setting import Variable
 from compare.check_certificate.reading import index, items, number
 
 MOST_ROWS = 1_000_000
