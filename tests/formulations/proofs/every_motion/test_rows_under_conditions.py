@@ -14,6 +14,7 @@ from formulations.problem.arrays import Array
 from formulations.problem.demands import Demands
 from formulations.proofs.every_motion.closed_forms import bound_at_top_speed
 from formulations.proofs.every_motion.relaxation.boxes import Boxes
+from formulations.proofs.every_motion.relaxation.columns import Columns
 from formulations.proofs.every_motion.relaxation.cuts import PEAKS, Kind
 from formulations.proofs.every_motion.relaxation.propagation import propagate
 from formulations.proofs.every_motion.relaxation.relaxed_problem import RelaxedProblem
@@ -68,6 +69,8 @@ def framed(made: Scenario, stretch: float) -> Frame | None:
     if not len(relaxed.joints) or not (least > 0.0).all() or (relaxed.cyclic and len(least) < 2):
         return None
     assert bound_at_top_speed(RelaxedProblem.under(demands, np.inf)) <= made.arrivals[-1] * (1 + 1e-12)
+    if (np.diff(made.arrivals[relaxed.waypoints]) > 1e4 * least).any():
+        return None  # the zones all but meet, and rounding of the motion is not small any more
     most = np.minimum(relaxed.most, relaxed.horizon - (least.sum() - least))
     boxes = propagate(relaxed, Boxes.around(relaxed, least * (1 - 1e-12), most * (1 + 1e-12)))
     assert not boxes.empty
@@ -93,7 +96,7 @@ def test_no_row_cuts_off_a_motion_that_keeps_the_conditions(ends: str) -> None:
                 size = abs(rows.matrix) @ np.abs(x) + np.abs(rows.upper)
                 sound = np.isfinite(rows.upper)
                 excess = rows.matrix @ x - rows.upper
-                assert (excess[sound] <= ROUNDING * size[sound] + 1e-12).all(), seed
+                assert (excess[sound] <= ROUNDING * size[sound] + 1e-11).all(), seed
                 seen |= set(cuts.kind[sound].tolist())
             fixed = frame.fixed()
             assert (fixed.matrix @ x - fixed.upper <= ROUNDING * (1.0 + np.abs(fixed.upper))).all(), (
@@ -104,8 +107,10 @@ def test_no_row_cuts_off_a_motion_that_keeps_the_conditions(ends: str) -> None:
 
 def test_peaks_beside_free_ends_would_cut_motions_off(monkeypatch: pytest.MonkeyPatch) -> None:
     """The fault that the test above must notice: (10) posed where the acceleration need not fade."""
-    everywhere = lambda frame: np.ones(frame.boxes.accelerations.shape[:2], dtype=bool)  # noqa: E731
-    monkeypatch.setattr(Frame, "_times_to_fade", everywhere)
+    true = Columns._times_to_fade
+    monkeypatch.setattr(
+        Frame, "_times_to_fade", lambda frame: (true(frame)[0], ~(true(frame)[1] & False))
+    )
     worst = 0.0
     for seed in range(30):
         made = scenario(np.random.default_rng(seed), "free", n=3)
@@ -116,5 +121,5 @@ def test_peaks_beside_free_ends_would_cut_motions_off(monkeypatch: pytest.Monkey
         cuts = separate(frame, x, -math.inf)
         cuts = cuts[np.isin(cuts.kind, PEAKS)]
         rows = frame.of(cuts)
-        worst = max(worst, float((rows.matrix @ x - rows.upper).max()))
+        worst = max(worst, float((rows.matrix @ x - rows.upper).max(initial=0.0)))
     assert worst > 1e-3
