@@ -46,7 +46,11 @@ def written(value: Any) -> Any:
 
 
 def certificate(
-    demands: dict[str, Any], seconds: float, horizon: float, events: list[Any]
+    demands: dict[str, Any],
+    seconds: float,
+    horizon: float,
+    events: list[Any],
+    without: frozenset[int] = frozenset(),
 ) -> dict[str, Any]:
     """A certificate as a file holds it."""
     x = np.array(demands["waypoints"])
@@ -67,6 +71,7 @@ def certificate(
         "seconds": float(seconds).hex(),
         "horizon": float(horizon).hex(),
         "demands": {key: written(value) for key, value in demands.items()},
+        "without": sorted(without),
         "events": events,
     }
 

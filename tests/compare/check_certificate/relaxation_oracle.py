@@ -16,13 +16,20 @@ Row = tuple[dict[Key, float], float]
 class Oracle:
     """Kept waypoints, limits, boxes and rows of demands, for motions of at most a horizon.
 
-    ``none``: nothing forces time between the ends, so there is no relaxation. ``wrong_peaks``: poses peak
-    rows that are wrong, "free": where an acceleration need not fade within the motion, "short": with the limits
-    of a segment within which it need not fade.
+    ``without``: inner waypoints left out besides. ``none``: nothing forces time between the ends, so there is
+    no relaxation. ``wrong_peaks``: poses peak rows that are wrong, "free": where an acceleration need not fade
+    within the motion, "short": with the limits of a segment within which it need not fade.
     """
 
-    def __init__(self, demands: dict[str, Any], horizon: float, *, wrong_peaks: str = "") -> None:
-        self.demands, self.wrong_peaks = demands, wrong_peaks
+    def __init__(
+        self,
+        demands: dict[str, Any],
+        horizon: float,
+        *,
+        without: frozenset[int] = frozenset(),
+        wrong_peaks: str = "",
+    ) -> None:
+        self.demands, self.without, self.wrong_peaks = demands, without, wrong_peaks
         self.cyclic = demands["cyclic"]
         x = self.x = np.array(demands["waypoints"])
         if self.cyclic:
@@ -57,7 +64,7 @@ class Oracle:
     def _kept(self) -> list[int]:
         kept = [0]
         for i in range(1, self.n):
-            if not self._together(kept[-1], i):
+            if i not in self.without and not self._together(kept[-1], i):
                 kept.append(i)
         while len(kept) > 1 and self._together(kept[-1], self.n):
             kept.pop()

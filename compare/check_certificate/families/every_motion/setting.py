@@ -34,7 +34,7 @@ class Setting:
     def __init__(self, claim: Claim, H: Any) -> None:
         self.claim, self.demands = claim, claim.demands()
         demands, dof = self.demands, range(claim.dof)
-        self.legs = course(demands)
+        self.legs = course(demands, claim.without)
         self.ks = list(self.legs)
         self.after = {k: leg.end for k, leg in self.legs.items()}
         self.before = {end: k for k, end in self.after.items()}
