@@ -101,7 +101,7 @@ class _Joints:
             return None
         found = self.amounts(key, value)
         if (found < 0.0).any():
-            joint = int(found.argmin())
+            joint = int((found < 0.0).argmax())
             amount = found[joint] / factors(self.units, self.unit)[joint]
             raise InputError(
                 f"{key}: {joint_label(self.names, joint)}: {amount:g} "

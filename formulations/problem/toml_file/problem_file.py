@@ -10,7 +10,7 @@ from typing import TYPE_CHECKING, Any
 from formulations.arms import Arm, load_arm
 from formulations.families import FAMILIES
 from formulations.problem.arrays import Array
-from formulations.problem.errors import InputError
+from formulations.problem.errors import InputError, UnsupportedProblem
 from formulations.problem.joint_words import METRES, UNITS
 from formulations.problem.problem import Problem
 from formulations.problem.toml_file.condition_table import conditions_of_table
@@ -192,7 +192,9 @@ def _problem(data: dict[str, Any], folder: Path) -> Problem:
         conditions=conditions,
     )
     if family is not None:
-        FAMILIES[family].require(problem)
+        reason = FAMILIES[family].refusal(problem.n_segments)
+        if reason is not None:
+            raise UnsupportedProblem(f"family: {reason}")
     return problem
 
 
