@@ -8,7 +8,7 @@ from __future__ import annotations
 from collections.abc import Callable
 from dataclasses import dataclass, replace
 from math import inf, isfinite
-from typing import TYPE_CHECKING, Annotated, Any, TypeVar
+from typing import TYPE_CHECKING, Annotated, Any, ClassVar, TypeVar
 
 from cyclopts import Group, Parameter
 
@@ -47,6 +47,7 @@ def _state(text: str) -> Parameter:
 class AskedConditions:
     """The options as they were typed."""
 
+    zones: ClassVar[str] = "--zone"  # what the option for zones is called in messages
     stop: Annotated[
         tuple[int, ...], _several("K", "Stand still at waypoint K; several times if needed.")
     ] = ()
@@ -99,6 +100,7 @@ class AskedConditions:
 class ZonedByTolerance(AskedConditions):
     """The same where ``--tolerance`` has no other meaning: it gives zones."""
 
+    zones: ClassVar[str] = "--tolerance"
     zone: Annotated[
         tuple[str, ...], _several("R or K=R", _ZONE, name=("--tolerance", "--zone"))
     ] = ()
@@ -137,7 +139,7 @@ def conditions_of(asked: AskedConditions | None, problem: Problem) -> Conditions
     least = _numbered("--least", asked.least, "K=T, such as 0=1.5", float)
     found = replace(
         own,
-        tolerance={**own.tolerance, **_zones(asked.zone, problem)},
+        tolerance={**own.tolerance, **_zones(asked, problem)},
         passage={**own.passage, **_numbered("--pass", asked.passage, "K=T, such as 2=1.5", float)},
         windows={**own.windows, **_numbered("--window", asked.window, "K=A:B, such as 2=1:3", _window)},
         segment_times={
@@ -182,19 +184,20 @@ def _window(text: str) -> tuple[float, float]:
     return float(early), float(late) if late.strip() else inf
 
 
-def _zones(texts: tuple[str, ...], problem: Problem) -> dict[int, Array]:
+def _zones(asked: AskedConditions, problem: Problem) -> dict[int, Array]:
     """Zones (dof,) [rad or m] by waypoint."""
     from formulations import InputError
 
     found: dict[int, Array] = {}
+    option, texts = asked.zones, asked.zone
     for_all = [text for text in texts if "=" not in text]
     if len(for_all) > 1:
-        raise InputError(f"--zone: {for_all[1]!r}: all inner waypoints are given twice")
+        raise InputError(f"{option}: {for_all[1]!r}: all inner waypoints are given twice")
     for text in for_all:
-        found = dict.fromkeys(range(1, problem.n_segments), _amounts("--zone", text, problem))
+        found = dict.fromkeys(range(1, problem.n_segments), _amounts(option, text, problem))
     single = [text for text in texts if "=" in text]
-    typed: dict[int, str] = _numbered("--zone", tuple(single), "K=R, such as 2=0.01", str)
-    return {**found, **{k: _amounts("--zone", text, problem) for k, text in typed.items()}}
+    typed: dict[int, str] = _numbered(option, tuple(single), "K=R, such as 2=0.01", str)
+    return {**found, **{k: _amounts(option, text, problem) for k, text in typed.items()}}
 
 
 def _end_state(option: str, text: str, problem: Problem) -> EndState:
