@@ -55,7 +55,9 @@ def conditioned_problems(draw: Draw, *, named: bool | None = None) -> Problem:
     dof, n = draw(st.integers(1, 3)), draw(st.integers(1, 5))
     jerk, acceleration = draw(st.booleans()), draw(st.booleans())
     jerk = jerk and acceleration
-    points = np.array(draw(st.lists(numbers(-3.0, 3.0), min_size=dof * (n + 1), max_size=dof * (n + 1))))
+    points = np.array(
+        draw(st.lists(numbers(-3.0, 3.0), min_size=dof * (n + 1), max_size=dof * (n + 1)))
+    )
     points = points.reshape(n + 1, dof)
     cyclic = draw(st.booleans())
     if cyclic:
@@ -63,7 +65,9 @@ def conditioned_problems(draw: Draw, *, named: bool | None = None) -> Problem:
     whole = draw(limits(dof, jerk=jerk, acceleration=acceleration))
     inner = list(range(1, n))
     chosen = st.sets(st.sampled_from(range(n + 1)))
-    zones = {k: np.array(draw(st.lists(numbers(0.0, 0.5), min_size=dof, max_size=dof))) for k in draw(chosen)}
+    zones = {
+        k: np.array(draw(st.lists(numbers(0.0, 0.5), min_size=dof, max_size=dof))) for k in draw(chosen)
+    }
     if cyclic:
         zones.pop(0, None)
         zones.pop(n, None)
@@ -71,7 +75,11 @@ def conditioned_problems(draw: Draw, *, named: bool | None = None) -> Problem:
     own = {k: draw(limits(dof, jerk=jerk, acceleration=acceleration)) for k in segments}
     asked: dict[str, Any] = {
         "tolerance": zones,
-        "windows": {k: (draw(numbers(0.0, 5.0)), draw(st.sampled_from([9.0, math.inf]))) for k in draw(chosen) if k},
+        "windows": {
+            k: (draw(numbers(0.0, 5.0)), draw(st.sampled_from([9.0, math.inf])))
+            for k in draw(chosen)
+            if k
+        },
         "segment_times": {
             k: (draw(numbers(0.0, 1.0)), draw(st.sampled_from([2.0, math.inf])))
             for k in draw(st.sets(st.sampled_from(range(n))))

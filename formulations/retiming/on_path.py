@@ -45,9 +45,7 @@ def by_toppra(path: Path, limits: Limits) -> Trajectory | str:
     velocity, acceleration = limits.intervals
     constraints = [toppra.constraint.JointVelocityConstraint(velocity)]
     if limits.has_acceleration:
-        constraints.append(
-            toppra.constraint.JointAccelerationConstraint(acceleration)
-        )
+        constraints.append(toppra.constraint.JointAccelerationConstraint(acceleration))
     grid = np.linspace(0.0, path.lengths[-1], max(400, min(4 * len(path.points), 4000)))
     geometry = _Spline(path)
     algorithm = toppra.algorithm.TOPPRA(

@@ -69,7 +69,8 @@ class AskedConditions:
         _several("K=T", "Take at least T seconds from waypoint K to the next one."),
     ] = ()
     wait: Annotated[
-        tuple[str, ...], _several("K=S", "Stand still for S seconds at waypoint K, after arriving there.")
+        tuple[str, ...],
+        _several("K=S", "Stand still for S seconds at waypoint K, after arriving there."),
     ] = ()
     cyclic: Annotated[
         bool,
@@ -90,9 +91,7 @@ class AskedConditions:
     start_acceleration: Annotated[
         str | None, _state("Acceleration at the start, a number per joint, or free.")
     ] = None
-    end_acceleration: Annotated[
-        str | None, _state("Acceleration at the end, in the same way.")
-    ] = None
+    end_acceleration: Annotated[str | None, _state("Acceleration at the end, in the same way.")] = None
 
 
 @Parameter(name="*", group=_CONDITIONS)
@@ -101,9 +100,7 @@ class ZonedByTolerance(AskedConditions):
     """The same where ``--tolerance`` has no other meaning: it gives zones."""
 
     zones: ClassVar[str] = "--tolerance"
-    zone: Annotated[
-        tuple[str, ...], _several("R or K=R", _ZONE, name=("--tolerance", "--zone"))
-    ] = ()
+    zone: Annotated[tuple[str, ...], _several("R or K=R", _ZONE, name=("--tolerance", "--zone"))] = ()
 
 
 ConditionOptions = Annotated[AskedConditions | None, Parameter(name="*")]

@@ -158,9 +158,7 @@ def _by_number(
     return found
 
 
-def _add_waypoints(
-    found: dict[str, Any], rows: dict[int, dict[str, Any]], joints: _Joints
-) -> None:
+def _add_waypoints(found: dict[str, Any], rows: dict[int, dict[str, Any]], joints: _Joints) -> None:
     """Lay what is asked for at single waypoints over what is asked for at all."""
     passage, windows, waits, stops = {}, {}, {}, set(found["stops"])
     for index, row in rows.items():

@@ -89,7 +89,9 @@ def intervals_by_joint(
         where = f"{key}: {joint_label(names if joint < len(names) else (), joint)}"
         found[joint] = read_interval(where, row, number=number)
     if entries is None and len(found) != dof:
-        raise InputError(f"{key}: {len(found)} intervals; expected [low, high] for each of {dof} joints")
+        raise InputError(
+            f"{key}: {len(found)} intervals; expected [low, high] for each of {dof} joints"
+        )
     return found
 
 

@@ -88,7 +88,9 @@ def save(problem: Problem, path: str | Path) -> None:
 
 
 def _text(problem: Problem, unit: str) -> str:
-    scale = np.array([np.pi / 180.0 if unit == "deg" and one == "rad" else 1.0 for one in problem.units])
+    scale = np.array(
+        [np.pi / 180.0 if unit == "deg" and one == "rad" else 1.0 for one in problem.units]
+    )
     lines = [f"{key} = {_toml(getattr(problem, key))}" for key in ("name", "title", "source")]
     lines.append(f"unit = {_toml(unit)}")
     if problem.family != Problem(problem.waypoints, problem.limits).family:
@@ -103,7 +105,9 @@ def _text(problem: Problem, unit: str) -> str:
     rows = [f"  {_toml(row)}," for row in (problem.waypoints / scale).tolist()]
     lines += ["waypoints = [", *rows, "]", "", "[limits]"]
     limits = table_of_limits(problem.limits, unit)
-    lines += [f"{key} = {_toml(_said(problem, key, value))}" for key, value in limits.items() if _any(value)]
+    lines += [
+        f"{key} = {_toml(_said(problem, key, value))}" for key, value in limits.items() if _any(value)
+    ]
     asked = tables_of_conditions(problem, unit)
     tables = {key: asked.pop(key) for key in ("waypoint", "segment") if key in asked}
     if asked:

@@ -151,7 +151,11 @@ def test_every_command_about_a_motion_is_asked_for_the_same(
 def test_commands_without_conditions_refuse_a_file_that_has_them(
     file: str, capsys: pytest.CaptureFixture[str]
 ) -> None:
-    for arguments in (["split", file], ["all", "--quick", "--cases", file], ["grade", "whale", "--cases", file]):
+    for arguments in (
+        ["split", file],
+        ["all", "--quick", "--cases", file],
+        ["grade", "whale", "--cases", file],
+    ):
         assert main(arguments) == 2
         assert "conditions.tolerance" in capsys.readouterr().err, arguments
 

@@ -114,14 +114,21 @@ def test_limits_of_a_segment_lie_over_those_of_the_problem() -> None:
 
 
 def test_a_number_is_the_zone_of_every_inner_waypoint_and_of_every_joint() -> None:
-    problem = of("waypoints = [[0, 0], [1, 1], [2, 1], [0, 0]]\n[limits]\nvelocity = 1\n[conditions]\ntolerance = 0.1\ncyclic = true")
-    assert {k: zone.tolist() for k, zone in problem.conditions.tolerance.items()} == {1: [0.1, 0.1], 2: [0.1, 0.1]}
+    problem = of(
+        "waypoints = [[0, 0], [1, 1], [2, 1], [0, 0]]\n[limits]\nvelocity = 1\n[conditions]\ntolerance = 0.1\ncyclic = true"
+    )
+    assert {k: zone.tolist() for k, zone in problem.conditions.tolerance.items()} == {
+        1: [0.1, 0.1],
+        2: [0.1, 0.1],
+    }
     assert problem.conditions.cyclic
 
 
 def test_an_empty_table_asks_for_nothing() -> None:
     assert of(PLAIN + "[conditions]") == of(PLAIN)
-    assert of(PLAIN.replace("velocity = {base = 90, rail = [-0.5, 0.25]}", "velocity = 1")).conditions.none
+    assert of(
+        PLAIN.replace("velocity = {base = 90, rail = [-0.5, 0.25]}", "velocity = 1")
+    ).conditions.none
 
 
 def test_conditions_go_with_a_family_that_the_file_names() -> None:
@@ -131,7 +138,9 @@ def test_conditions_go_with_a_family_that_the_file_names() -> None:
 
 def test_every_key_is_read() -> None:
     rows = [line.split(" = ")[0] for line in WHOLE.splitlines() if " = " in line]
-    assert {*CONDITION_KEYS, *WAYPOINT_KEYS, *SEGMENT_KEYS} - {"cyclic", "waypoint", "segment"} <= set(rows)
+    assert {*CONDITION_KEYS, *WAYPOINT_KEYS, *SEGMENT_KEYS} - {"cyclic", "waypoint", "segment"} <= set(
+        rows
+    )
 
 
 def asking(lines: str) -> str:
