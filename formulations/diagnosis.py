@@ -8,6 +8,7 @@ them: the motion is planned again under the raised limit, and checked.
 from __future__ import annotations
 
 from dataclasses import dataclass, replace
+from typing import Any
 
 import numpy as np
 
@@ -247,7 +248,7 @@ def _raised_limits(limits: Limits, order: int, joint: int, factor: float) -> Lim
         QUANTITIES[3]: None,
     }
     name, interval = list(by_order.items())[order]
-    changed = {name: _scaled(getattr(limits, name), joint, factor)}
+    changed: dict[str, Any] = {name: _scaled(getattr(limits, name), joint, factor)}
     if interval is not None:
         changed[f"{name}_interval"] = _scaled(interval, joint, factor)
     return replace(limits, **changed)

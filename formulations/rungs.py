@@ -65,8 +65,7 @@ def ladder(
     gap : float
         Relative gap aimed at between ``free_form`` and ``free_form_lower``.
     rungs : collection of str, optional
-        Keys of ``RUNGS``; those that they need are computed too. By default ``usual_rungs``: all, and of
-        large problems all but those of the family.
+        Keys of ``RUNGS``; those that they need are computed too. ``usual_rungs`` if left out.
     starts : int, optional
         Number of starts of the family's NLP. By default it starts once, and a proof shows that no
         durations are faster; where the proof is not short, it starts many times.

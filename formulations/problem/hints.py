@@ -86,9 +86,9 @@ def _jitter(problem: Problem, unit: str, digits: int, points: Array) -> Iterator
     tolerance = float((half / own).max())
     yield (
         f"waypoints: all {len(points)} are multiples of {grid:g} {unit}, and {int(turned.sum())} of them lie "
-        f"beside the line of their neighbours by such a step: if they were rounded, the jitter makes the motion "
-        f"take about {as_given / exact:.2g} times as long, or more; [conditions] tolerance = {tolerance:.3g} (half "
-        f"a step), or --tolerance {tolerance:.3g}, lets it pass between them"
+        f"beside the line of their neighbours by such a step: if they were rounded, the jitter makes the "
+        f"motion take about {as_given / exact:.2g} times as long, or more; [conditions] tolerance = "
+        f"{tolerance:.3g} (half a step), or --tolerance {tolerance:.3g}, lets it pass between them"
     )
 
 

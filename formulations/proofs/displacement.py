@@ -16,7 +16,6 @@ from __future__ import annotations
 
 import sys
 from fractions import Fraction
-from itertools import pairwise
 from math import isfinite, nextafter
 
 import numpy as np

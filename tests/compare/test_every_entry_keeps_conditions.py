@@ -80,7 +80,10 @@ METHODS: dict[str, Callable[[Problem], Any]] = {
         for key, rung in RUNGS.items()
         if rung.takes is not Takes.CLIMB and not rung.knows_conditions
     },
-    **{f"grade, {coding}": lambda p, c=coding: grade(Run("a", c, "pso", 0, 50, 10), p, 1.0) for coding in CODINGS},
+    **{
+        f"grade, {coding}": lambda p, c=coding: grade(Run("a", c, "pso", 0, 50, 10), p, 1.0)
+        for coding in CODINGS
+    },
     "proved optimum": proved_optimum,
     "each joint alone": each_joint_alone,
     "longest segment": lambda p: longest_segment(p, [DURATIONS]),

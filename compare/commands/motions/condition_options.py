@@ -129,7 +129,7 @@ def conditions_of(asked: AskedConditions | None, problem: Problem) -> Conditions
     own = problem.conditions
     if asked is None or asked == type(asked)():
         return own
-    states = {}
+    states: dict[str, Any] = {}
     for key in ("start_velocity", "end_velocity", "start_acceleration", "end_acceleration"):
         if (text := getattr(asked, key)) is not None:
             states[key] = _end_state(f"--{key.replace('_', '-')}", text, problem)
@@ -202,7 +202,7 @@ def _end_state(option: str, text: str, problem: Problem) -> EndState:
 
 
 def _amounts(option: str, text: str, problem: Problem, *, alone: bool = True) -> Array:
-    """Values of the joints, (dof,) [rad or m], from numbers in the unit of the file; alone: one may be for all."""
+    """Values of the joints, (dof,) [rad or m], from numbers in the unit of the file; alone: one is for all."""
     import numpy as np
 
     from formulations import InputError

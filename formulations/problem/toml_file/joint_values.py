@@ -65,8 +65,14 @@ def intervals_by_joint(
 
     Parameters
     ----------
-    key, value, names, dof
-        As in ``by_joint``.
+    key : str
+        Where the value stands, for the message.
+    value : object
+        The value.
+    names : sequence of str
+        Names of the joints; empty where there are none.
+    dof : int
+        Number of joints.
     number : callable
         Reads the two numbers of an interval.
 

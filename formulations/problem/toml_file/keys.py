@@ -54,7 +54,7 @@ CONDITION_KEYS: dict[str, str] = {
     f"{_PER_JOINT}.",
     "stops": "Waypoints at which the motion stands still, as a list of their numbers.",
     "total": "Time of the whole motion [s]. The motion is then the smoothest in this time.",
-    "cyclic": "`true`: the motion is one turn of a cycle, with the same velocity and acceleration at both ends.",
+    "cyclic": "`true`: the motion is one turn of a cycle; velocity and acceleration are the same at both ends.",
     "start_velocity": f'Velocity at the start [unit/s]: {_PER_JOINT}, or `"free"`; at rest if left out.',
     "end_velocity": "Velocity at the end, in the same forms.",
     "start_acceleration": "Acceleration at the start [unit/s^2], in the same forms; 0 if left out.",

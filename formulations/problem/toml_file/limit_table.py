@@ -183,7 +183,7 @@ def _in_si(
         order = (LIMITED.index(quantity) + 1) % len(LIMITED)
         found[quantity] = {}
         for joint, value in by_number.items():
-            low, high = value if isinstance(value, tuple) else (-value, value)
+            low, high = _pair(value)
             fine = low < high if order == 0 else low < 0.0 < high
             if not fine:
                 shown_value = f"[{low:g}, {high:g}]" if isinstance(value, tuple) else f"{value:g}"
@@ -208,7 +208,7 @@ def _with(
 ) -> Limits:
     """Limits with some replaced [rad and m]."""
     speeds, steepest = (np.array(one) for one in whole.intervals)
-    merged = {
+    merged: dict[str, Any] = {
         "velocity": speeds,
         "acceleration": steepest,
         "jerk": np.array(whole.jerk),
@@ -216,8 +216,8 @@ def _with(
     }
     for quantity, by_number in changes.items():
         for joint, value in by_number.items():
-            both = quantity in LIMITED[:2] and not isinstance(value, tuple)
-            merged[quantity][joint] = (-value, value) if both else value  # type: ignore[operator]
+            both_ways = quantity in LIMITED[:2]
+            merged[quantity][joint] = _pair(value) if both_ways else value
     return Limits.of(**merged, dof=len(units), units=units, names=names)
 
 
@@ -225,4 +225,9 @@ def _alike(values: list[Limit]) -> list[Any]:
     """All of them as pairs where one is."""
     if not any(isinstance(value, tuple) for value in values):
         return values
-    return [value if isinstance(value, tuple) else (-value, value) for value in values]
+    return [_pair(value) for value in values]
+
+
+def _pair(value: Limit) -> tuple[float, float]:
+    """The limits in the two directions."""
+    return value if isinstance(value, tuple) else (-value, value)

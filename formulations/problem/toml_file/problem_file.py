@@ -121,7 +121,8 @@ def parse(text: str, *, where: str = "problem", folder: str | Path = ".") -> Pro
     ----------
     text : str
         The keys are in ``keys``: ``waypoints``, ``waypoints_file``, or ``robot`` or ``arm`` and ``[[pose]]``;
-        ``[limits]``, or ``robot`` and ``limits_file``; ``[conditions]``; and ``name``, ``joints``, ``unit``, ``family``, ....
+        ``[limits]``, or ``robot`` and ``limits_file``; ``[conditions]``; and ``name``, ``joints``, ``unit``,
+        ``family``, ....
     where : str
         Start of every error line.
     folder : str or Path

@@ -115,7 +115,8 @@ def test_limits_of_a_segment_lie_over_those_of_the_problem() -> None:
 
 def test_a_number_is_the_zone_of_every_inner_waypoint_and_of_every_joint() -> None:
     problem = of(
-        "waypoints = [[0, 0], [1, 1], [2, 1], [0, 0]]\n[limits]\nvelocity = 1\n[conditions]\ntolerance = 0.1\ncyclic = true"
+        "waypoints = [[0, 0], [1, 1], [2, 1], [0, 0]]\n[limits]\nvelocity = 1\n"
+        "[conditions]\ntolerance = 0.1\ncyclic = true"
     )
     assert {k: zone.tolist() for k, zone in problem.conditions.tolerance.items()} == {
         1: [0.1, 0.1],
