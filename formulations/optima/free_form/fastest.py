@@ -205,7 +205,7 @@ def free_form(
     begun = time.perf_counter()
     deadline = Deadline(time_limit, stop)
     require_moderate(problem)
-    asked = conditions or Conditions()
+    asked = problem.conditions if conditions is None else conditions
     asked.validate(problem)
     if not (_LEAST_ARCS <= mesh <= _MOST_ARCS):
         raise InputError(f"mesh: {mesh} arcs per segment, expected {_LEAST_ARCS} to {_MOST_ARCS}")
@@ -232,7 +232,7 @@ def free_form(
         raise NotFoundInTime(f"{status}: no motion was found yet that keeps {_named(asked)}")
     if best is None:
         raise NoFeasibleMotion(_why_not(problem, asked, search))
-    if asked.none and best.verdict.seconds > 0.999 * search.stages[0].seconds:
+    if asked.none and problem.limits.symmetric and best.verdict.seconds > 0.999 * search.stages[0].seconds:
         best = _or_ruckig(problem, best)
     if task.group(1):
         notes.append(
