@@ -68,7 +68,7 @@ def solve(
     problem = problem_of(file, own)
     problem = replace(problem, conditions=conditions_of(asked, problem))
     if export is not None:
-        check_export(export, problem, rate)
+        check_export(export, problem, rate, problem.conditions)
     chosen = chosen_rungs(problem, rungs, without)
     deadline = Deadline(time_limit)
     with ctrl_c_stops() as stop, stages(problem.name) as stage:
@@ -158,7 +158,9 @@ def _export(path: str, problem: Problem, answer: Ladder, rate: float | None) -> 
     if not verified:
         raise InputError("--export: there is no verified motion")
     key = min(verified, key=lambda key: verified[key])
-    written = export_motion(path, problem, answer.trajectories[key], rate)
+    written = export_motion(
+        path, problem, answer.trajectories[key], rate, conditions=problem.conditions
+    )
     return "\n".join([f"{key}, {verified[key]:.9g} s", *written.lines()])
 
 
