@@ -5,7 +5,8 @@ from __future__ import annotations
 import numpy as np
 import pytest
 from demanded_motions import ENDS, scenario
-from relaxation_oracle import Oracle, certificate, with_multiplier
+from handmade_certificates import certificate, with_multiplier
+from relaxation_oracle import Oracle
 
 from compare.check_certificate.claim import Claim
 from compare.check_certificate.families.every_motion.relaxation import Relaxation
