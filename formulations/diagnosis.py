@@ -230,7 +230,9 @@ def _raised(
 ) -> tuple[Problem, Conditions]:
     """The problem and its conditions with one limit raised, also where segments have limits of their own."""
     quantity = QUANTITIES[order + 1]
-    segments = {k: _raised_limits(own, quantity, joint, factor) for k, own in asked.segment_limits.items()}
+    segments = {
+        k: _raised_limits(own, quantity, joint, factor) for k, own in asked.segment_limits.items()
+    }
     asked = replace(asked, segment_limits=segments)
     limits = _raised_limits(problem.limits, quantity, joint, factor)
     return replace(problem, limits=limits, conditions=asked), asked

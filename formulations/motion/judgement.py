@@ -114,7 +114,12 @@ class Judgement:
     def is_paced(self) -> bool:
         """Whether times or states at the ends are asked for, so that no uniform stretch is allowed."""
         asked = self.conditions
-        ends = (asked.start_velocity, asked.end_velocity, asked.start_acceleration, asked.end_acceleration)
+        ends = (
+            asked.start_velocity,
+            asked.end_velocity,
+            asked.start_acceleration,
+            asked.end_acceleration,
+        )
         times = (asked.passage, asked.windows, asked.segment_times, asked.waits)
         return (
             any(times)

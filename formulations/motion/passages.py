@@ -90,7 +90,9 @@ def passages(
     for previous in reversed(before):
         chosen.append(int(previous[chosen[-1]]))
     times = np.array([candidates[k][i] for k, i in enumerate(reversed(chosen))])
-    return Passages(times, np.stack([_off(at, box) for at, box in zip(trajectory.at(times), boxes, strict=True)]))
+    return Passages(
+        times, np.stack([_off(at, box) for at, box in zip(trajectory.at(times), boxes, strict=True)])
+    )
 
 
 def _off(positions: Array, box: Array) -> Array:

@@ -189,7 +189,10 @@ class _Bounds:
 
     def of_joint(self, joint: int) -> JointBounds:
         demands, left, ends = self.demands, self.left[:, joint], self.ends[:, :, joint]
-        velocity, acceleration = demands.velocity[:, joint] * left[0], demands.acceleration[:, joint] * left[1]
+        velocity, acceleration = (
+            demands.velocity[:, joint] * left[0],
+            demands.acceleration[:, joint] * left[1],
+        )
         for state, limits in zip(ends, (velocity, acceleration), strict=True):
             for end in (0, -1):  # a state that is asked for may lie on a limit
                 limits[end] = min(limits[end, 0], state[end]), max(limits[end, 1], state[end])

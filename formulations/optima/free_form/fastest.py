@@ -240,7 +240,11 @@ def free_form(
         raise NotFoundInTime(f"{status}: no motion was found yet that keeps {named(asked)}")
     if best is None:
         raise NoFeasibleMotion(why_not(search))
-    if asked.none and problem.limits.symmetric and best.verdict.seconds > 0.999 * search.stages[0].seconds:
+    if (
+        asked.none
+        and problem.limits.symmetric
+        and best.verdict.seconds > 0.999 * search.stages[0].seconds
+    ):
         best = _or_ruckig(problem, best)
     if task.group(1):
         notes.append(

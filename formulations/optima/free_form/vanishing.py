@@ -61,6 +61,10 @@ def _vanishing(search: MeshRefinement) -> frozenset[int]:
         return frozenset()
     short = motion.times < _SHORT * motion.times.mean()
     boxes = task.boxes
-    overlap = np.maximum(boxes[1:, :, 0], boxes[:-1, :, 0]) <= np.minimum(boxes[1:, :, 1], boxes[:-1, :, 1])
-    short &= overlap.all(axis=1) & (task.durations[:, 0] == 0.0) & (task.waits[1:] + task.waits[:-1] == 0.0)
+    overlap = np.maximum(boxes[1:, :, 0], boxes[:-1, :, 0]) <= np.minimum(
+        boxes[1:, :, 1], boxes[:-1, :, 1]
+    )
+    short &= (
+        overlap.all(axis=1) & (task.durations[:, 0] == 0.0) & (task.waits[1:] + task.waits[:-1] == 0.0)
+    )
     return frozenset(int(k) for k in task.segments[short])

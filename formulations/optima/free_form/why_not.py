@@ -59,7 +59,9 @@ def _nearest(task: ConditionedProblem, motion: ArcMotion) -> list[str]:
         if early == late:
             lines.append(f"passes waypoint {waypoint} at {time:.9g} s, {late:.9g} s asked for")
         elif not early * (1.0 - _MET) <= time <= late * (1.0 + _MET):
-            lines.append(f"passes waypoint {waypoint} at {time:.9g} s, [{early:.9g}, {late:.9g}] s asked for")
+            lines.append(
+                f"passes waypoint {waypoint} at {time:.9g} s, [{early:.9g}, {late:.9g}] s asked for"
+            )
     for k, segment in enumerate(task.segments.tolist()):
         greatest = task.durations[k, 1]
         if motion.times[k] > greatest * (1.0 + _MET):
