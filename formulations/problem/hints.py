@@ -18,7 +18,7 @@ _TURNS = 2.0  # turns of a joint from which on degrees may have been read as rad
 _FEWEST = 8  # waypoints of a path that was sampled
 _GRIDS = {"rad": range(3, 8), "deg": range(1, 7)}  # digits after the point, the coarsest grid first
 _EXACT = 1e-6  # of a grid step: by how much a multiple of it may be missed
-_COSTS = 1.2  # times as slow as without rounding: less is not worth a word
+_COSTS = 1.1  # times as slow as without rounding: less is not worth a word
 
 
 def hints_of(problem: Problem) -> tuple[str, ...]:

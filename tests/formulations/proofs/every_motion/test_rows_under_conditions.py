@@ -14,6 +14,7 @@ from formulations.problem.arrays import Array
 from formulations.problem.demands import Demands
 from formulations.proofs.every_motion.closed_forms import bound_at_top_speed
 from formulations.proofs.every_motion.relaxation.boxes import Boxes
+from formulations.proofs.every_motion.relaxation.columns import Columns
 from formulations.proofs.every_motion.relaxation.cuts import PEAKS, Kind
 from formulations.proofs.every_motion.relaxation.propagation import propagate
 from formulations.proofs.every_motion.relaxation.relaxed_problem import RelaxedProblem
@@ -106,8 +107,10 @@ def test_no_row_cuts_off_a_motion_that_keeps_the_conditions(ends: str) -> None:
 
 def test_peaks_beside_free_ends_would_cut_motions_off(monkeypatch: pytest.MonkeyPatch) -> None:
     """The fault that the test above must notice: (10) posed where the acceleration need not fade."""
-    everywhere = lambda frame: np.ones(frame.boxes.accelerations.shape[:2], dtype=bool)  # noqa: E731
-    monkeypatch.setattr(Frame, "_times_to_fade", everywhere)
+    true = Columns._times_to_fade
+    monkeypatch.setattr(
+        Frame, "_times_to_fade", lambda frame: (true(frame)[0], ~(true(frame)[1] & False))
+    )
     worst = 0.0
     for seed in range(30):
         made = scenario(np.random.default_rng(seed), "free", n=3)
