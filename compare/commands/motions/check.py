@@ -21,6 +21,7 @@ from formulations import InputError
 from formulations.assessment import Assessment, assess
 from formulations.motion.files.motion_file import read_points
 from formulations.motion.judgement import WAYPOINT_TOLERANCE
+from formulations.problem.toml_file.plain_conditions import asked_as_json
 
 
 def check_motion(
@@ -74,7 +75,7 @@ def check_motion(
             tolerance=tolerance,
             bound=bound,
         )
-    show(as_text(motion, found), found.to_json(), json)
+    show(as_text(motion, found), {**found.to_json(), **asked_as_json(problem)}, json)
     return DONE if found.judgement.feasible else BROKEN
 
 

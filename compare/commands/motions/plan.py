@@ -23,6 +23,7 @@ from formulations.motion.verdict import QUANTITIES
 from formulations.optima.at_rate.export import check_export, export_motion
 from formulations.optima.free_form import SearchStatus
 from formulations.problem.joint_words import shown_unit
+from formulations.problem.toml_file.plain_conditions import asked_as_json
 from formulations.proofs.status import BoundStatus
 
 _CUT_SHORT = {
@@ -128,6 +129,8 @@ def _proved(bound: FreeFormBound, timed: bool) -> str:
 def as_json(problem: Problem, found: FreeForm, bound: FreeFormBound | None = None) -> dict[str, object]:
     """The same as plain data, with every peak; joints and segments count from 1, as in the text.
 
+    Conditions stand in it as in a problem file, in rad, where waypoints count from 0.
+
     Parameters
     ----------
     problem : Problem
@@ -145,6 +148,7 @@ def as_json(problem: Problem, found: FreeForm, bound: FreeFormBound | None = Non
     passed = [] if found.trajectory is None else found.trajectory.passage_times.tolist()
     return {
         "problem": problem.name,
+        **asked_as_json(problem),
         "seconds": found.seconds,
         "passage_times": passed,
         "method": found.method,

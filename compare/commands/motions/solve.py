@@ -28,6 +28,7 @@ from compare.screen import show, stages, table
 from formulations import RUNGS, InputError, Ladder, Problem
 from formulations.deadlines import Deadline
 from formulations.optima.at_rate.export import check_export, export_motion
+from formulations.problem.toml_file.plain_conditions import asked_as_json
 from formulations.proofs.certificate import write_certificate
 
 _LINES = 8  # of what limits the fastest motion
@@ -90,7 +91,7 @@ def solve(
     if held is not None and held.holds:
         text += ["\nwhat limits the fastest motion", *(f"  {line}" for line in held.lines()[:_LINES])]
     diagnosis = None if held is None else held.to_json()
-    show("\n".join(text), {**answer.to_json(), "diagnosis": diagnosis}, json)
+    show("\n".join(text), {**answer.to_json(), **asked_as_json(problem), "diagnosis": diagnosis}, json)
     say = sys.stderr if json == "-" else sys.stdout
     if reason := unsolved(answer):
         print(f"error: {problem.name}: no motion was found: {reason}", file=sys.stderr)

@@ -49,6 +49,9 @@ def planned(*arguments: str) -> dict[str, object]:
 def test_plan_keeps_them(folder: Path) -> None:
     free, asked = planned("plain.toml"), planned("cell.toml", "--export", "m.pieces.json")
     assert asked["seconds"] != free["seconds"]
+    said = asked["conditions"]
+    assert said["waypoint"] == [{"at": 2, "window": [1.2, 2.0], "wait": 0.25}]  # type: ignore[index]
+    assert "conditions" not in free
     motion, problem = read_motion("m.pieces.json"), load("cell.toml")
     passed = np.array(asked["passage_times"])
     assert passed[2] >= 1.2 - 1e-9
