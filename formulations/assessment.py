@@ -165,8 +165,8 @@ def assess(
     tolerance : float, default 1e-4 [rad]
         By how much a waypoint may be missed in each joint.
     conditions : Conditions, optional
-        What was asked of the motion; the conditions of the problem if left out. The bound is that of the motions that keep it, and
-        says how fast they could be where a total time is asked for.
+        What was asked of the motion; the conditions of the problem if left out. The bound is that of the
+        motions that keep it, and says how fast they could be where a total time is asked for.
     bound : bool, default True
         Whether to prove a lower bound.
     time_limit : float, default 20 [s]
