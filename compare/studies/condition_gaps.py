@@ -58,11 +58,31 @@ class Drawn:
         return int(self.rng.integers(1, self.last))
 
     def limits(self, share: float = 1.0) -> Limits:
-        """The limits, velocity and acceleration times a share."""
+        """Return the limits, velocity and acceleration times a share.
+
+        Parameters
+        ----------
+        share : float
+
+        Returns
+        -------
+        Limits
+        """
         return Limits.of(share * self.velocity, share * self.acceleration, self.jerk, dof=self.dof)
 
     def problem(self, conditions: Conditions, limits: Limits | None = None) -> Problem:
-        """The problem under a condition."""
+        """Return the problem under a condition.
+
+        Parameters
+        ----------
+        conditions : Conditions
+        limits : Limits, optional
+            In place of those drawn.
+
+        Returns
+        -------
+        Problem
+        """
         return Problem(self.waypoints, limits or self.limits(), conditions=conditions)
 
 
@@ -110,7 +130,8 @@ def _two_directions(d: Drawn) -> Problem:
         np.stack([-limit * d.rng.uniform(0.3, 1.0, d.dof), limit], axis=1)
         for limit in (d.velocity, d.acceleration)
     ]
-    return d.problem(Conditions(), Limits.of(*pairs, d.jerk, dof=d.dof))
+    limits = Limits.of(pairs[0], pairs[1], d.jerk, dof=d.dof)
+    return d.problem(Conditions(), limits)
 
 
 KINDS: dict[str, Callable[[Drawn], Problem]] = {
@@ -170,8 +191,11 @@ def drawn_problem(kind: str, seed: int) -> Problem:
     waypoints = rng.uniform(-1.5, 1.5, (int(rng.integers(3, 6)), int(rng.integers(1, 4))))
     dof = waypoints.shape[1]
     jerk = rng.uniform(10.0, 60.0, dof) if rng.random() < 0.8 else np.inf
-    drawn = Drawn(rng, waypoints, rng.uniform(1.0, 3.0, dof), rng.uniform(2.0, 8.0, dof), jerk)
-    return KINDS[kind](drawn)
+    velocity, acceleration = (
+        np.asarray(rng.uniform(1.0, 3.0, dof)),
+        np.asarray(rng.uniform(2.0, 8.0, dof)),
+    )
+    return KINDS[kind](Drawn(rng, waypoints, velocity, acceleration, jerk))
 
 
 def answered(kind: str, seed: int) -> list[ConditionAnswer]:
