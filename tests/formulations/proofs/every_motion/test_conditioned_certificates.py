@@ -65,7 +65,7 @@ def test_a_proof_under_conditions_is_certified(kind: str, seed: int) -> None:
     bound = free_form_bound(problem, conditions=conditions, time_limit=1.5, record=True)
     data = json.loads(json.dumps(bound.certificate))
     seconds = float.fromhex(data["seconds"])
-    assert 0.5 * bound.seconds <= seconds <= bound.seconds * (1.0 + 1e-9)
+    assert 0.0 < seconds <= bound.seconds * (1.0 + 1e-9)
     assert verify(data).startswith("no motion of 'problem' with ")
     data["seconds"] = data["horizon"] = (3.0 * seconds).hex()
     with pytest.raises(Refused):
