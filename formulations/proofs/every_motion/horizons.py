@@ -265,7 +265,7 @@ class HorizonSearch:
         horizon = min(self.known * (1.0 + _BEYOND), self.seconds * (1.0 + _NEAR))
         joints = self.relaxed(horizon).joints
         if not len(joints) or not self.seconds > least * (1.0 + 1e-9):
-            return least, least, self._without_rows
+            return least, least, self._without_rows()
         with np.errstate(over="ignore", divide="ignore", invalid="ignore"):
             bound, events = bound_with_events(
                 self.relaxed(horizon),
@@ -276,16 +276,16 @@ class HorizonSearch:
                 deadline,
             )
         if not bound > least:
-            return least, least, self._without_rows
+            return least, least, self._without_rows()
         self._improve(bound)  # a near horizon may prove more
         return bound, horizon, events
 
-    @property
     def _without_rows(self) -> list[list[Any]]:
         """Events that prove displacement at top speed: of a plain problem the checker does so by itself."""
         if self.plain:
             return []
-        relaxed = RelaxedProblem.under(self.demands, np.inf, without=self.without)
+        self.without = frozenset()  # that bound counts all waypoints
+        relaxed = RelaxedProblem.under(self.demands, np.inf)
         latest = bound_at_top_speed(relaxed)[1]
         rows = [["b", int(relaxed.waypoints[latest]), 1.0.hex()]] if latest else []
         return [["P"], ["F", rows]]
