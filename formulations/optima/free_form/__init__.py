@@ -5,6 +5,7 @@ ending            how the search ended
 stage             one step of the search
 mesh_refinement   the search: programs on finer and finer meshes, each motion judged by the check
 stop_and_go       the motion that is always there, in closed form
+many_waypoints    through many waypoints: a search that takes time in proportion to them
 faults            what a motion keeps badly: position limits, fixed times
 retiming          each segment's least time between waypoint states, by Ruckig
 sensitivity       what each limit costs, from the multipliers

@@ -142,8 +142,8 @@ def minimise_in_band(
         slope = cost if quadratic is None else cost + quadratic @ x
         r_rows = upper - matrix @ x - s
         r_slope = -(slope + turned @ y - z_low + z_high)
-        mu = float(s @ y + under @ z_low + over @ z_high) / size
-        converged = mu * size < tolerance * (1.0 + abs(float(cost @ x)))
+        mu = _sum_of_products((s, y), (under, z_low), (over, z_high)) / size
+        converged = mu * size < tolerance * (1.0 + abs(_sum_of_products((cost, x))))
         converged &= bool(np.abs(r_rows).max() < _ROWS_MET)
         converged &= bool(np.abs(r_slope).max() < 1e-8 * (1.0 + np.abs(cost).max()))
         if converged or deadline.over:
@@ -167,9 +167,12 @@ def minimise_in_band(
         dual = lengths((y, z_low, z_high), (dy, d_low, d_high))
         if quadratic is not None:
             ahead = dual = min(ahead, dual)
-        left = (s + ahead * ds) @ (y + dual * dy) + (under + ahead * dx) @ (z_low + dual * d_low)
-        left += (over - ahead * dx) @ (z_high + dual * d_high)
-        aim = (float(left) / size / mu) ** 3 * mu
+        left = _sum_of_products(
+            (s + ahead * ds, y + dual * dy),
+            (under + ahead * dx, z_low + dual * d_low),
+            (over - ahead * dx, z_high + dual * d_high),
+        )
+        aim = (left / size / mu) ** 3 * mu
         dx, ds, dy, d_low, d_high = step(
             aim - s * y - ds * dy, aim - under * z_low - dx * d_low, aim - over * z_high + dx * d_high
         )
@@ -182,6 +185,16 @@ def minimise_in_band(
         x = x + ahead * dx
         s, y, z_low, z_high = (
             np.maximum(value + length * change, _TINY)
-            for value, length, change in ((s, ahead, ds), (y, dual, dy), (z_low, dual, d_low), (z_high, dual, d_high))
+            for value, length, change in (
+                (s, ahead, ds),
+                (y, dual, dy),
+                (z_low, dual, d_low),
+                (z_high, dual, d_high),
+            )
         )
     return BandedSolution(x, y, converged)
+
+
+def _sum_of_products(*pairs: tuple[Array, Array]) -> float:
+    """Not by BLAS: its threads wait for one another on a busy machine, at every call."""
+    return sum(float((a * b).sum()) for a, b in pairs)

@@ -140,7 +140,9 @@ class ReachRows:
             if len(row):
                 top = np.ones(len(row))
                 if limited:
-                    six, cruises = farthest(v0[row], W0[row], v1[row], W1[row], top, most[row], bend[row])
+                    six, cruises = farthest(
+                        v0[row], W0[row], v1[row], W1[row], top, most[row], bend[row]
+                    )
                 else:
                     six, cruises = farthest_without_jerk(v0[row], v1[row], top, ramp[row])
                 both = (np.stack(distance_coefficients(six, which)) for which in (True, False))
@@ -148,7 +150,9 @@ class ReachRows:
             row = np.flatnonzero(~self.far & (jerky == limited))
             one, zero = np.ones(len(row)), np.zeros(len(row))
             if limited:
-                c_W0, c_W1, c_A, c_J = speed_coefficients(fastest(W0[row], W1[row], most[row], bend[row]))
+                c_W0, c_W1, c_A, c_J = speed_coefficients(
+                    fastest(W0[row], W1[row], most[row], bend[row])
+                )
             else:
                 c_W0, c_W1, c_A, c_J = zero, zero, one, zero
             found[row] = np.stack([one, c_W0, -one, c_W1, zero, c_A, c_J], axis=1)

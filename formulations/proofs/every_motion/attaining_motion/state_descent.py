@@ -28,7 +28,7 @@ from formulations.problem.arrays import Array, Indices
 from formulations.problem.problem import Problem
 from formulations.proofs.every_motion.attaining_motion.interior_point import minimise_in_band
 from formulations.proofs.every_motion.attaining_motion.reach_rows import ChainPoint, ReachRows
-from formulations.proofs.every_motion.attaining_motion.states import MARGIN
+from formulations.proofs.every_motion.attaining_motion.states import MARGIN, WaypointStates
 from formulations.proofs.every_motion.closed_forms import stop_and_go_durations
 from formulations.proofs.every_motion.relaxation.relaxed_problem import RelaxedProblem
 
@@ -65,6 +65,7 @@ class ChainDescent:
         problem : Problem
             With an acceleration limit or a jerk limit for each joint that moves.
         """
+        self.problem = problem
         v, a, j = problem.limits.derivatives * (1.0 - MARGIN)
         lowered = replace(problem, limits=replace(problem.limits, velocity=v, acceleration=a, jerk=j))
         times = stop_and_go_durations(problem)
@@ -91,6 +92,22 @@ class ChainDescent:
     def seconds(self) -> float:
         """Time of the best point [s]."""
         return float(self.best.T.sum())
+
+    def states(self, point: ChainPoint) -> WaypointStates:
+        """The states of a point in rad/s and rad/s^2.
+
+        Parameters
+        ----------
+        point : ChainPoint
+
+        Returns
+        -------
+        WaypointStates
+        """
+        horizon = float(point.T.sum()) * (1.0 + MARGIN)
+        own = RelaxedProblem.of(self.problem, horizon)
+        relaxed = self.relaxed
+        return WaypointStates(own, point.v * relaxed.velocity, point.a * relaxed.acceleration)
 
     def run(
         self,
@@ -123,7 +140,7 @@ class ChainDescent:
             change = abs(float(self.point.T.sum() / before.T.sum()) - 1.0)
             self._ending |= change < _NEAR_END
             ahead = self.seconds / float(self.point.T.sum()) - 1.0
-            if self._ending and change < 0.1 * tolerance and ahead < 0.5 * tolerance:
+            if change < 0.1 * tolerance and 0.0 <= ahead < tolerance:
                 self.converged = True
                 return
 
@@ -195,7 +212,13 @@ class ChainDescent:
         blocks = self.rows[active].curvature(part, self._weights[active])
         K, n = self.relaxed.displacements.shape
         k, j = np.indices((K, n))
-        five = [columns.T[k], columns.v[k, j], columns.a[k, j], columns.v[k + 1, j], columns.a[k + 1, j]]
+        five = [
+            columns.T[k],
+            columns.v[k, j],
+            columns.a[k, j],
+            columns.v[k + 1, j],
+            columns.a[k + 1, j],
+        ]
         place = np.stack(five, axis=-1)
         row = np.broadcast_to(place[..., :, None], blocks.shape).ravel()
         column = np.broadcast_to(place[..., None, :], blocks.shape).ravel()
@@ -246,7 +269,9 @@ class ChainDescent:
         high = share
         for _ in range(_BISECTIONS if low > 0.0 else 0):
             middle = float(np.sqrt(low * high))
-            low, high = (low, middle) if self._holds(self.point.slower(1.0 + middle)) else (middle, high)
+            low, high = (
+                (low, middle) if self._holds(self.point.slower(1.0 + middle)) else (middle, high)
+            )
         self.best = self.point.slower(1.0 + high)
 
     def _holds(self, point: ChainPoint) -> bool:
