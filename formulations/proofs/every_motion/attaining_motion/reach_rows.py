@@ -91,8 +91,8 @@ class ReachRows:
         return ReachRows(relaxed, k, j, 1.0 - 2.0 * way, kind == 0)
 
     def __getitem__(self, which: Indices | Truths) -> ReachRows:
-        columns = (self.segment, self.joint, self.sign, self.far)
-        return ReachRows(self.relaxed, *(column[which] for column in columns))
+        k, j = self.segment[which], self.joint[which]
+        return ReachRows(self.relaxed, k, j, self.sign[which], self.far[which])
 
     def states(self, point: ChainPoint) -> tuple[Array, ...]:
         """Duration and states at both ends of each row's segment.

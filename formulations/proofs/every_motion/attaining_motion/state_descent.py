@@ -24,7 +24,7 @@ import numpy as np
 from scipy.sparse import coo_array, csr_array
 
 from formulations.deadlines import NEVER, Deadline
-from formulations.problem.arrays import Array, Indices
+from formulations.problem.arrays import Array, Indices, Truths
 from formulations.problem.problem import Problem
 from formulations.proofs.every_motion.attaining_motion.interior_point import minimise_in_band
 from formulations.proofs.every_motion.attaining_motion.reach_rows import ChainPoint, ReachRows
@@ -74,7 +74,7 @@ class ChainDescent:
         times = times[relaxed.segments] * (1.0 + 2.0 * MARGIN)
         self.point = self.best = ChainPoint(times, still, still)
         self.rows = ReachRows.of(relaxed)
-        self.columns = _Columns.of(*relaxed.displacements.shape, relaxed.has_jerk)
+        self.columns = _Columns.of(len(times), relaxed.has_jerk)
         with np.errstate(divide="ignore", invalid="ignore"):
             share = relaxed.acceleration**2 / (2.0 * relaxed.jerk * relaxed.velocity)
         self._peak = np.where(relaxed.has_jerk, share, 0.0)  # of |v| + a^2 / (2 J) over V
@@ -276,7 +276,7 @@ class ChainDescent:
 
     def _holds(self, point: ChainPoint) -> bool:
         peaks = np.abs(point.v) + self._peak * point.a**2
-        if max(peaks.max(), np.abs(point.a).max()) > 1.0 or (point.T < self.relaxed.least).any():
+        if max(peaks.max(), np.abs(point.a).max()) > 1.0 or (self.relaxed.least > point.T).any():
             return False
         coefficients = self.rows.coefficients(self.rows.states(point))
         return bool(self._missing_at(point, coefficients).max() <= 1e-12)
@@ -293,7 +293,8 @@ class _Columns(NamedTuple):
     size: int
 
     @staticmethod
-    def of(K: int, n: int, has_jerk: Array) -> _Columns:
+    def of(K: int, has_jerk: Truths) -> _Columns:
+        n = len(has_jerk)
         start = np.arange(K + 1) * (2 * n + 2)
         v = start[:, None] + 2 * np.arange(n)
         T = start[:-1] + 2 * n

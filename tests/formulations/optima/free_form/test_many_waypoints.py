@@ -26,19 +26,22 @@ def always(monkeypatch):
 def test_no_slower_than_the_program_of_the_whole_motion(monkeypatch, always, seed):
     problem = random_problem(12, 2, seed)
     found = free_form(problem, tolerance=1e-5)
-    assert found.method == many_waypoints.NAME and check(problem, found.trajectory).feasible
+    assert found.method == many_waypoints.NAME
+    assert check(problem, found.trajectory).feasible
     monkeypatch.setattr(many_waypoints, "MANY", 10_000)
     whole = free_form(problem, tolerance=1e-5)
     assert whole.method != many_waypoints.NAME
     assert found.seconds <= whole.seconds * (1.0 + 1e-4)
 
 
-def test_joints_without_a_jerk_limit(always):
+@pytest.mark.usefixtures("always")
+def test_joints_without_a_jerk_limit():
     waypoints = random_problem(12, 3).waypoints
     limits = Limits.of(velocity=[2.0] * 3, acceleration=[5.0] * 3, jerk=[50.0, np.inf, 50.0], dof=3)
     problem = Problem(waypoints, limits)
     found = free_form(problem)
-    assert found.method == many_waypoints.NAME and check(problem, found.trajectory).feasible
+    assert found.method == many_waypoints.NAME
+    assert check(problem, found.trajectory).feasible
     slow = Problem(waypoints, Limits.of(velocity=2.0, acceleration=5.0, jerk=50.0, dof=3))
     assert found.seconds <= free_form(slow).seconds * (1.0 + 1e-3)
 
@@ -46,7 +49,8 @@ def test_joints_without_a_jerk_limit(always):
 def test_takes_over_by_itself_and_passes_every_waypoint():
     problem = random_problem(60, 5)
     found = free_form(problem)
-    assert found.method == many_waypoints.NAME and found.status is SearchStatus.OK
+    assert found.method == many_waypoints.NAME
+    assert found.status is SearchStatus.OK
     passed = found.trajectory.at(found.trajectory.passage_times)
     assert np.abs(passed - problem.waypoints).max() < 1e-6
     assert found.seconds < 0.8 * found.stages[0].seconds
@@ -68,13 +72,15 @@ def test_an_interrupt_at_any_stage_leaves_a_verified_motion(always, calls):
 def test_the_time_limit_leaves_a_verified_motion(always):
     problem = random_problem(20, 3)
     found = free_form(problem, time_limit=0.0)
-    assert found.status is SearchStatus.TIME_LIMIT and check(problem, found.trajectory).feasible
+    assert found.status is SearchStatus.TIME_LIMIT
+    assert check(problem, found.trajectory).feasible
 
 
 def test_progress_only_gets_faster(always):
     seen = []
     free_form(random_problem(20, 3), progress=lambda name, seconds: seen.append(seconds))
-    assert len(seen) > 2 and seen == sorted(seen, reverse=True)
+    assert len(seen) > 2
+    assert seen == sorted(seen, reverse=True)
 
 
 def test_slopes_are_those_of_difference_quotients():
@@ -97,6 +103,7 @@ def test_slopes_are_those_of_difference_quotients():
 def test_three_hundred_waypoints():
     problem = random_problem(300, 7)
     found = free_form(problem)
-    assert found.method == many_waypoints.NAME and found.status is SearchStatus.OK
+    assert found.method == many_waypoints.NAME
+    assert found.status is SearchStatus.OK
     assert check(problem, found.trajectory).feasible
     assert found.seconds <= 131.03 * (1.0 + 3e-4)

@@ -5,6 +5,7 @@ import pytest
 from scipy.optimize import linprog
 from scipy.sparse import csr_array, diags_array
 
+from formulations.deadlines import Deadline
 from formulations.proofs.every_motion.attaining_motion.interior_point import minimise_in_band
 
 
@@ -34,17 +35,18 @@ def test_a_quadratic_program_meets_its_optimality_conditions(seed):
     quadratic = diags_array(np.linspace(0.5, 2.0, len(cost))).tocsr()
     found = minimise_in_band(cost, csr_array(rows), upper, box, csr_array(quadratic), tolerance=1e-11)
     x, y = found.x, found.multipliers
-    assert found.converged and (rows @ x <= upper + 1e-8).all() and (y >= 0.0).all()
+    assert found.converged
+    assert (rows @ x <= upper + 1e-8).all()
+    assert (y >= 0.0).all()
     slope = cost + quadratic @ x + rows.T @ y
     inner = (x > -1.0 + 1e-5) & (x < 1.0 - 1e-5)
     assert np.abs(slope[inner]).max(initial=0.0) < 1e-4
-    assert (slope[x <= -1.0 + 1e-5] > -1e-4).all() and (slope[x >= 1.0 - 1e-5] < 1e-4).all()
+    assert (slope[x <= -1.0 + 1e-5] > -1e-4).all()
+    assert (slope[x >= 1.0 - 1e-5] < 1e-4).all()
     assert np.abs(y * (upper - rows @ x)).max() < 1e-6
 
 
 def test_the_deadline_ends_the_solve():
-    from formulations.deadlines import Deadline
-
     cost, rows, upper, box = banded_program(0)
     found = minimise_in_band(
         cost, csr_array(rows), upper, box, tolerance=1e-10, deadline=Deadline(stop=lambda: True)
