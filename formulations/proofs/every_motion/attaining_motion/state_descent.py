@@ -26,6 +26,7 @@ from scipy.sparse import coo_array, csr_array
 from formulations.deadlines import NEVER, Deadline
 from formulations.problem.arrays import Array, Indices, Truths
 from formulations.problem.problem import Problem
+from formulations.proofs.every_motion.attaining_motion.cruising_start import cruising_point
 from formulations.proofs.every_motion.attaining_motion.interior_point import minimise_in_band
 from formulations.proofs.every_motion.attaining_motion.reach_rows import ChainPoint, ReachRows
 from formulations.proofs.every_motion.attaining_motion.states import MARGIN, WaypointStates
@@ -42,6 +43,8 @@ _CALM, _CALMER = 1e-3, 1e-2  # weight of the squared change of states, before an
 _WIDEST, _NARROWER, _WIDER = 0.5, 0.6, 1.4  # the trust region's radius, and how it changes
 _SLOWER = 10.0 ** np.arange(-7.0, 5.0)  # factors less 1, before bisection
 _BISECTIONS = 6
+_DENSE = 0.1  # of top speed: what full acceleration gains in one segment of a dense path
+_SURE = 0.1  # radius of the trust region there
 
 
 class ChainDescent:
@@ -87,6 +90,22 @@ class ChainDescent:
         self._missing = np.zeros(relaxed.displacements.shape)
         self._ending = False
         self.converged = False
+        self._begin_without_stops()
+
+    def _begin_without_stops(self) -> None:
+        """Begin at full speed where the steps between waypoints are too short to accelerate in."""
+        stopping, point = self.point, cruising_point(self.relaxed)
+        ramp = point.T[:, None] * self.relaxed.acceleration / self.relaxed.velocity
+        if float(ramp.mean()) > _DENSE:
+            return
+        self.point = point
+        self._keep_feasible()
+        if self.best is stopping:
+            self.point = stopping
+            return
+        # the time that a missing bit of speed saves is that of many segments
+        self._price = _PRICE / float(ramp.mean())
+        self._width[:] = _SURE
 
     @property
     def seconds(self) -> float:
@@ -189,7 +208,7 @@ class ChainDescent:
         self._weights = each.reshape(len(generations), -1).sum(axis=0)
         self._peak_weights = found.multipliers[len(near) :].reshape(2, *point.v.shape).sum(axis=0)
         if self._ending and x[columns.missed].max() > 1e-6:
-            self._price = min(4.0 * self._price, _DEAREST)
+            self._price = max(self._price, min(4.0 * self._price, _DEAREST))
         T = np.maximum(point.T * (1.0 + x[columns.T]), relaxed.least)
         return ChainPoint(T, point.v + x[columns.v], point.a + x[columns.a])
 
