@@ -7,6 +7,7 @@ mesh_refinement   the search: programs on finer and finer meshes, each motion ju
 vanishing         zones that are passed at one time
 why_not           why there is no motion, and the nearest times that are possible
 stop_and_go       the motion that is always there, in closed form
+many_waypoints    through many waypoints: a search that takes time in proportion to them
 faults            what a motion keeps badly: position limits, times
 retiming          each segment's least time between waypoint states, by Ruckig
 sensitivity       what each limit costs, from the multipliers

@@ -15,6 +15,11 @@ from formulations.deadlines.deadline import Stop
 from formulations.motion.trajectory import Trajectory
 from formulations.motion.verdict import Verdict, check
 from formulations.optima.free_form.ending import SearchStatus
+from formulations.optima.free_form.many_waypoints import (
+    FoundInLinearTime,
+    found_in_linear_time,
+    has_many_waypoints,
+)
 from formulations.optima.free_form.mesh_refinement import MeshRefinement
 from formulations.optima.free_form.nlp.assembly import RAMP
 from formulations.optima.free_form.nlp.conditioned import ConditionedProblem
@@ -112,6 +117,9 @@ def free_form(
     segments between the waypoint states of the solution with Ruckig [3]_, and from there solves a
     program in which every joint crosses every segment on arcs of constant jerk with durations of their
     own. Such arcs can represent the optimum exactly.
+
+    Through many waypoints (40 segments, and 200 segments times joints) a search over durations and waypoint
+    states takes over, in time proportional to the number of waypoints; it has no ``sensitivity``.
 
     The returned motion is verified: an independent check, which computes exact extremes of all
     polynomials, confirms its waypoints, limits and conditions. So its time is an upper bound on the
@@ -223,6 +231,10 @@ def free_form(
     task = ConditionedProblem(problem, asked)
     if not task.n_segments:
         return _nothing_moves(problem, asked, begun)
+    if has_many_waypoints(task):
+        with_many = found_in_linear_time(problem, tolerance, deadline, progress)
+        if with_many is not None:
+            return _of_many(problem, asked, with_many, begun)
 
     def run(task: ConditionedProblem) -> MeshRefinement:
         search = MeshRefinement(task, solver, progress, deadline)
@@ -280,6 +292,24 @@ def _nothing_moves(problem: Problem, asked: Conditions, begun: float) -> FreeFor
         (),
         None,
         (),
+        time.perf_counter() - begun,
+    )
+
+
+def _of_many(problem: Problem, asked: Conditions, found: FoundInLinearTime, begun: float) -> FreeForm:
+    converged = found.status is not SearchStatus.NOT_CONVERGED
+    return FreeForm(
+        problem,
+        asked,
+        np.diff(found.trajectory.passage_times),
+        found.trajectory,
+        found.verdict,
+        found.stages[-1].name,
+        found.status,
+        "" if converged else "the steps still gained time when their number was reached",
+        (),
+        None,
+        found.stages,
         time.perf_counter() - begun,
     )
 

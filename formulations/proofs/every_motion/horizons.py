@@ -287,7 +287,7 @@ class HorizonSearch:
         self.without = frozenset()  # that bound counts all waypoints
         relaxed = RelaxedProblem.under(self.demands, np.inf)
         latest = bound_at_top_speed(relaxed)[1]
-        rows = [["b", int(relaxed.waypoints[latest]), 1.0.hex()]] if latest else []
+        rows = [["b", int(relaxed.waypoints[latest]), (1.0).hex()]] if latest else []
         return [["P"], ["F", rows]]
 
     def met(self, gap: float) -> bool:

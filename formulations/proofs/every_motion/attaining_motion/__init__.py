@@ -2,6 +2,10 @@
 
 durations   segment durations near those of the relaxation that a motion can have
 states      velocities and accelerations at the waypoints for given durations
+state_descent   durations and states at once, for many waypoints: sequential quadratic programs
+cruising_start  where dense paths begin
+reach_rows      what such a point violates, to first and second order
+interior_point  the quadratic program in a band
 motion      the motion between these states
 
 The bound does not depend on any of this: the motion is judged by the independent check.

@@ -1,7 +1,7 @@
 """Waypoint states with which a motion can have given durations.
 
 With fixed durations everything else is convex: it is the linear program with duration boxes of zero
-width. Limits are lowered by ``_MARGIN``, to cover the solver's tolerance.
+width. Limits are lowered by ``MARGIN``, to cover the solver's tolerance.
 """
 
 from __future__ import annotations
@@ -20,7 +20,7 @@ from formulations.proofs.every_motion.relaxation.linear_program import LinearPro
 from formulations.proofs.every_motion.relaxation.relaxed_problem import RelaxedProblem
 from formulations.proofs.every_motion.relaxation.rows import Frame
 
-_MARGIN = 1e-7
+MARGIN = 1e-7
 _ROUNDS, _TOLERANCE = 60, 1e-9
 
 
@@ -60,9 +60,9 @@ def find_states(
         None where none were found.
     """
     limits = problem.limits
-    v, a, j = limits.derivatives * (1.0 - _MARGIN)
+    v, a, j = limits.derivatives * (1.0 - MARGIN)
     lowered = replace(problem, limits=replace(limits, velocity=v, acceleration=a, jerk=j))
-    horizon = float(durations.sum()) * (1.0 + _MARGIN)
+    horizon = float(durations.sum()) * (1.0 + MARGIN)
     relaxed = RelaxedProblem.of(lowered, horizon, 0.0)
     frame = Frame(relaxed, Boxes.around(relaxed, durations, durations), durations)
     program = LinearProgram(frame, cuts)

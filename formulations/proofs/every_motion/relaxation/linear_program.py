@@ -10,7 +10,7 @@ Computation 10, pp. 119-142 (HiGHS).
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from enum import StrEnum
 
 import highspy
@@ -221,18 +221,25 @@ class LinearProgram:
         LPSolution
         """
         self.highs.changeColsCost(len(cost), np.arange(len(cost), dtype=np.int32), cost)
-        converged = False
+        converged, proved = False, None
         for turn in range(rounds):
             if self._run(deadline) != LPStatus.OPTIMAL:
                 break
-            x = np.array(self.highs.getSolution().col_value)
+            point = self.highs.getSolution()
+            x, proved = np.array(point.col_value), (self.rows, -np.array(point.row_dual))
             cuts = separate(self.frame, x, tolerance)
             converged = not len(cuts)
             if converged or turn == rounds - 1:
                 break
             self._thin_out()
             self.add(cuts)
-        return self._solution(cost, converged)
+        found = self._solution(cost, converged)
+        if found.status == LPStatus.TIME_LIMIT and proved is not None and not self._for_checker:
+            # the multipliers of the round before prove more than those of an unfinished one
+            rows, y = proved
+            before = safe_bound(cost, rows.matrix, rows.upper, self.frame.box, y)
+            found = replace(found, bound=max(found.bound, before))
+        return found
 
     def _run(self, deadline: Deadline) -> LPStatus:
         """Solve from the last basis; where that gives no answer, from scratch and in other ways."""

@@ -1,0 +1,108 @@
+"""The fastest motion through many waypoints: durations and waypoint states at once, in linear time.
+
+The nonlinear programs of ``nlp`` have some thirty variables for each segment and joint, and take minutes
+where there are hundreds of waypoints. Between two waypoint states the motion is known, so that two
+variables for each joint and waypoint suffice (``proofs.every_motion.attaining_motion``).
+"""
+
+from __future__ import annotations
+
+import time
+from collections.abc import Callable
+from typing import NamedTuple
+
+import numpy as np
+
+from formulations.deadlines import Deadline
+from formulations.motion.trajectory import Trajectory
+from formulations.motion.verdict import Verdict, check
+from formulations.optima.free_form.ending import SearchStatus
+from formulations.optima.free_form.nlp.conditioned import ConditionedProblem
+from formulations.optima.free_form.stage import Stage
+from formulations.problem.problem import Problem
+from formulations.proofs.every_motion.attaining_motion.motion import connect
+from formulations.proofs.every_motion.attaining_motion.state_descent import ChainDescent
+
+MANY = 40  # segments from which this search is the faster one, by measurement: 1 s against 6 s there
+_WIDE = 200  # segments times joints: fewer are quick in either way
+_FINEST = 1e-5  # relative tolerance that the search reaches
+_SLOWER = (0.0, 1e-9, 1e-7, 1e-6, 1e-5, 1e-4, 1e-3)  # tried in turn until the check is content
+NAME = "waypoint states of the whole motion"
+
+
+class FoundInLinearTime(NamedTuple):
+    """A verified motion, and how the search for it ended."""
+
+    trajectory: Trajectory
+    verdict: Verdict
+    status: SearchStatus
+    stages: tuple[Stage, ...]
+
+
+def has_many_waypoints(task: ConditionedProblem) -> bool:
+    """Say whether the search in linear time is the better one.
+
+    Parameters
+    ----------
+    task : ConditionedProblem
+
+    Returns
+    -------
+    bool
+        For plain problems only: no conditions, and no joint that has a velocity limit only.
+    """
+    S, n = task.n_segments, len(task.moving)
+    plain = task.conditions.none and task.problem.plain and not task.group(1)
+    return plain and S >= MANY and S * n >= _WIDE
+
+
+def found_in_linear_time(
+    problem: Problem,
+    tolerance: float,
+    deadline: Deadline,
+    progress: Callable[[str, float], None] | None = None,
+) -> FoundInLinearTime | None:
+    """Search for the fastest motion through many waypoints.
+
+    Parameters
+    ----------
+    problem : Problem
+    tolerance : float
+        Relative, of the total time; at least 1e-5.
+    deadline : Deadline
+        After it the best motion so far is the answer; the first one is stop and go.
+    progress : callable, optional
+        Called as ``progress(stage, seconds)`` whenever a faster motion was found.
+
+    Returns
+    -------
+    FoundInLinearTime or None
+        None where the check refuses the motion: it may leave the position limits between waypoints.
+    """
+    clock = time.perf_counter()
+    descent = ChainDescent(problem)
+    stages = [Stage("stop and go", descent.seconds, "", time.perf_counter() - clock)]
+    clock = time.perf_counter()
+
+    def say(seconds: float) -> None:
+        if progress is not None:
+            progress(NAME, seconds)
+
+    say(descent.seconds)
+    with np.errstate(all="ignore"):  # what overflows is not finite, and the check refuses it
+        descent.run(min(max(tolerance, _FINEST), 1e-4), deadline, say)
+        status = SearchStatus.OK if descent.converged else SearchStatus.NOT_CONVERGED
+        if not descent.converged and deadline.over:
+            status = SearchStatus.INTERRUPTED if deadline.interrupted else SearchStatus.TIME_LIMIT
+        for share in _SLOWER:
+            point = descent.best.slower(1.0 + share)
+            motion = connect(problem, point.T, descent.states(point))
+            if motion is None:
+                return None
+            verdict = check(problem, motion)
+            if verdict.feasible:
+                stages.append(Stage(NAME, verdict.seconds, "", time.perf_counter() - clock))
+                return FoundInLinearTime(motion, verdict, status, tuple(stages))
+            if not verdict.position_kept:
+                return None
+    return None

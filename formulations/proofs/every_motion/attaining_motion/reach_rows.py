@@ -1,0 +1,214 @@
+"""What a point of durations and waypoint states violates, to first and second order, in every segment.
+
+A motion with durations T, velocities v and accelerations a at the waypoints exists exactly if every joint
+gets as far as each displacement, in both directions, and gains as much speed: (1) and (2) of ``reach`` at
+their own switches, and |v| + a^2 / (2 J) <= V. With W = T a these rows are functions of T, v and a. By the
+envelope theorem their slopes are those at fixed switches. All states are in units of their limits here, and
+a change of T in units of T.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import numpy as np
+
+from formulations.problem.arrays import Array, Indices, Truths
+from formulations.proofs.every_motion.relaxation.reach import distance_coefficients, speed_coefficients
+from formulations.proofs.every_motion.relaxation.relaxed_problem import RelaxedProblem
+from formulations.proofs.every_motion.relaxation.switches import (
+    farthest,
+    farthest_without_jerk,
+    fastest,
+)
+
+_STEP = 1e-6  # of the difference quotients
+
+
+@dataclass(frozen=True)
+class ChainPoint:
+    """Durations and waypoint states.
+
+    Attributes
+    ----------
+    T : Array, shape (K,) [s]
+    v, a : Array, shape (K + 1, n)
+        In units of the limits.
+    """
+
+    T: Array
+    v: Array
+    a: Array
+
+    def slower(self, factor: float) -> ChainPoint:
+        """The states of the same motion with its time stretched.
+
+        Parameters
+        ----------
+        factor : float
+
+        Returns
+        -------
+        ChainPoint
+        """
+        return ChainPoint(self.T * factor, self.v / factor, self.a / factor**2)
+
+
+@dataclass(frozen=True)
+class ReachRows:
+    """The rows of a relaxed problem: one for each segment, joint, direction and kind.
+
+    Attributes
+    ----------
+    relaxed : RelaxedProblem
+    segment, joint : Indices, shape (m,)
+    sign : Array, shape (m,)
+        Direction, 1 or -1.
+    far : Truths, shape (m,)
+        Whether the row is about the distance (1), or the speed (2).
+    """
+
+    relaxed: RelaxedProblem
+    segment: Indices
+    joint: Indices
+    sign: Array
+    far: Truths
+
+    @staticmethod
+    def of(relaxed: RelaxedProblem) -> ReachRows:
+        """List all rows.
+
+        Parameters
+        ----------
+        relaxed : RelaxedProblem
+
+        Returns
+        -------
+        ReachRows
+        """
+        K, n = relaxed.displacements.shape
+        k, j, way, kind = (index.ravel() for index in np.indices((K, n, 2, 2)))
+        return ReachRows(relaxed, k, j, 1.0 - 2.0 * way, kind == 0)
+
+    def __getitem__(self, which: Indices | Truths) -> ReachRows:
+        k, j = self.segment[which], self.joint[which]
+        return ReachRows(self.relaxed, k, j, self.sign[which], self.far[which])
+
+    def states(self, point: ChainPoint) -> tuple[Array, ...]:
+        """Duration and states at both ends of each row's segment.
+
+        Parameters
+        ----------
+        point : ChainPoint
+
+        Returns
+        -------
+        tuple of Array, shape (m,)
+            T, v0, a0, v1, a1.
+        """
+        k, j = self.segment, self.joint
+        return point.T[k], point.v[k, j], point.a[k, j], point.v[k + 1, j], point.a[k + 1, j]
+
+    def _units(self, T: Array) -> tuple[Array, Array, Array]:
+        """Speed gained at full acceleration and at full jerk, and mean speed wanted, over top speed."""
+        relaxed, j = self.relaxed, self.joint
+        top = relaxed.velocity[j]
+        wanted = self.far * self.sign * relaxed.displacements[self.segment, j] / (top * T)
+        return T * relaxed.acceleration[j] / top, T**2 * relaxed.jerk[j] / top, wanted
+
+    def coefficients(self, states: tuple[Array, ...]) -> Array:
+        """Compute the rows' coefficients at the switches that are best for these states.
+
+        Parameters
+        ----------
+        states : tuple of Array, shape (m,)
+            T, v0, a0, v1, a1.
+
+        Returns
+        -------
+        Array, shape (m, 7)
+            Of v0, W0, v1, W1, V, A T and J T^2, as ``distance_coefficients`` has them.
+        """
+        T, v0, a0, v1, a1 = states
+        ramp, bend, _ = self._units(T)
+        v0, v1, W0, W1 = self.sign * v0, self.sign * v1, self.sign * a0 * ramp, self.sign * a1 * ramp
+        most = np.maximum(ramp, np.maximum(np.abs(W0), np.abs(W1)))
+        found = np.empty((len(T), 7))
+        jerky = self.relaxed.has_jerk[self.joint]
+        for limited in (True, False):
+            row = np.flatnonzero(self.far & (jerky == limited))
+            if len(row):
+                top = np.ones(len(row))
+                if limited:
+                    six, cruises = farthest(
+                        v0[row], W0[row], v1[row], W1[row], top, most[row], bend[row]
+                    )
+                else:
+                    six, cruises = farthest_without_jerk(v0[row], v1[row], top, ramp[row])
+                both = (np.stack(distance_coefficients(six, which)) for which in (True, False))
+                found[row] = np.where(cruises, *both).T
+            row = np.flatnonzero(~self.far & (jerky == limited))
+            one, zero = np.ones(len(row)), np.zeros(len(row))
+            if limited:
+                c_W0, c_W1, c_A, c_J = speed_coefficients(
+                    fastest(W0[row], W1[row], most[row], bend[row])
+                )
+            else:
+                c_W0, c_W1, c_A, c_J = zero, zero, one, zero
+            found[row] = np.stack([one, c_W0, -one, c_W1, zero, c_A, c_J], axis=1)
+        return found
+
+    def linearised(self, c: Array, states: tuple[Array, ...]) -> tuple[Array, Array]:
+        """Linearise the rows with given coefficients.
+
+        Parameters
+        ----------
+        c : Array, shape (m, 7)
+        states : tuple of Array, shape (m,)
+
+        Returns
+        -------
+        slopes : Array, shape (m, 5)
+            Change of what is missing with T, v0, a0, v1, a1.
+        slack : Array, shape (m,)
+            Negative where the row is violated.
+        """
+        T, v0, a0, v1, a1 = states
+        ramp, bend, wanted = self._units(T)
+        sign = self.sign
+        pull = sign * ramp * (c[:, 1] * a0 + c[:, 3] * a1)
+        slack = sign * (c[:, 0] * v0 + c[:, 2] * v1) + pull
+        slack += c[:, 4] + c[:, 5] * ramp + c[:, 6] * bend - wanted
+        by_T = -wanted - pull - c[:, 5] * ramp - 2.0 * c[:, 6] * bend
+        by_states = -sign * np.stack([c[:, 0], c[:, 1] * ramp, c[:, 2], c[:, 3] * ramp])
+        return np.stack([by_T, *by_states], axis=1), slack
+
+    def curvature(self, states: tuple[Array, ...], weights: Array) -> Array:
+        """Sum the rows' second derivatives per segment and joint, made positive semidefinite.
+
+        Parameters
+        ----------
+        states : tuple of Array, shape (m,)
+        weights : Array, shape (m,)
+            Multipliers.
+
+        Returns
+        -------
+        Array, shape (K, n, 5, 5)
+        """
+        bends = np.empty((len(weights), 5, 5))
+        for i in range(5):
+            step = _STEP * (states[0] if i == 0 else np.ones(len(weights)))
+            slopes = []
+            for side in (1.0, -1.0):
+                near = tuple(value + side * step * (i == q) for q, value in enumerate(states))
+                slope = self.linearised(self.coefficients(near), near)[0]
+                slope[:, 0] *= states[0] / near[0]  # in units of the same T
+                slopes.append(slope)
+            bends[:, i] = (slopes[0] - slopes[1]) / (2.0 * _STEP)
+        K, n = self.relaxed.displacements.shape
+        total = np.zeros((K * n, 5, 5))
+        np.add.at(total, self.segment * n + self.joint, weights[:, None, None] * bends)
+        values, vectors = np.linalg.eigh(total + total.transpose(0, 2, 1))
+        kept = np.clip(0.5 * values, 0.0, None)
+        return np.asarray((vectors * kept[:, None, :]) @ vectors.transpose(0, 2, 1)).reshape(K, n, 5, 5)
