@@ -17,6 +17,7 @@ from formulations.motion.smoothness import (
     motion_at,
     rounding_of_positions,
 )
+from formulations.motion.tool_check import tool_faults, tool_peaks
 from formulations.motion.trajectory import Trajectory
 from formulations.problem.arrays import Array
 from formulations.problem.conditions import Conditions
@@ -104,7 +105,7 @@ def check(
     >>> slower.feasible
     True
     """
-    asked = conditions or Conditions()
+    asked = problem.conditions if conditions is None else conditions
     if trajectory.dof != problem.dof:
         raise InputError(f"trajectory: {trajectory.dof} joints, the problem has {problem.dof}")
     targets = problem.waypoints if through else problem.waypoints[[0, -1]]
@@ -113,8 +114,10 @@ def check(
         *_waypoint_faults(problem, trajectory, targets),
         *_smoothness_faults(problem, trajectory, asked, known),
         *_time_faults(problem, trajectory, asked, known),
+        *tool_faults(problem, trajectory, asked),
     ]
-    peaks = worst_of_quantities(peaks_of_joints(problem, trajectory, asked))
+    found = [*peaks_of_joints(problem, trajectory, asked), *tool_peaks(problem, trajectory, asked)]
+    peaks = worst_of_quantities(found)
     faults += [f"over the limit: {peak}" for peak in peaks if peak.factor > 1.0 + TOLERANCE]
     stretch = max((peak.stretch for peak in peaks if peak.quantity != "position"), default=0.0)
     return Verdict(trajectory.seconds, not faults, stretch, tuple(peaks), tuple(faults))
