@@ -88,9 +88,7 @@ def tool_speeds(problem: Problem, trajectory: Trajectory, limits: Array) -> Tool
         return None
     middles = trajectory.breaks[:-1] + 0.5 * trajectory.durations
     segments = np.searchsorted(trajectory.passage_times, middles) - 1
-    return tool_speed(
-        problem.tool, trajectory, np.clip(segments, 0, problem.n_segments - 1), limits
-    )
+    return tool_speed(problem.tool, trajectory, np.clip(segments, 0, problem.n_segments - 1), limits)
 
 
 def tool_faults(problem: Problem, trajectory: Trajectory, asked: Conditions) -> Iterator[str]:

@@ -46,9 +46,7 @@ class ToolSpeed:
     time: Array
 
 
-def tool_speed(
-    chain: LinkChain, trajectory: Trajectory, segments: Indices, limits: Array
-) -> ToolSpeed:
+def tool_speed(chain: LinkChain, trajectory: Trajectory, segments: Indices, limits: Array) -> ToolSpeed:
     """Bound the speed of the tool point on each segment.
 
     Parameters
@@ -123,9 +121,7 @@ def _derivative(trajectory: Trajectory, piece: Indices, t: Array, order: int) ->
     return value
 
 
-def _square(
-    chain: LinkChain, trajectory: Trajectory, piece: Indices, t: Array
-) -> tuple[Array, Array]:
+def _square(chain: LinkChain, trajectory: Trajectory, piece: Indices, t: Array) -> tuple[Array, Array]:
     """The square of the speed and its slope at local times, (n,) each."""
     state = [_derivative(trajectory, piece, t, order) for order in range(3)]
     _, velocity, acceleration = tool_motion(chain, *state)

@@ -20,8 +20,10 @@ from formulations.optima.free_form.nlp.assembly import RAMP
 from formulations.optima.free_form.nlp.conditioned import ConditionedProblem
 from formulations.optima.free_form.sensitivity import Sensitivity
 from formulations.optima.free_form.stage import Stage, VerifiedMotion
+from formulations.optima.free_form.tool.search import ToolSearch
 from formulations.problem.arrays import Array
 from formulations.problem.conditions import Conditions
+from formulations.problem.demands import Demands
 from formulations.problem.errors import InputError, NoFeasibleMotion, NotFoundInTime
 from formulations.problem.problem import Problem
 from formulations.problem.size import require_moderate
@@ -205,7 +207,7 @@ def free_form(
     begun = time.perf_counter()
     deadline = Deadline(time_limit, stop)
     require_moderate(problem)
-    asked = conditions or Conditions()
+    asked = problem.conditions if conditions is None else conditions
     asked.validate(problem)
     if not (_LEAST_ARCS <= mesh <= _MOST_ARCS):
         raise InputError(f"mesh: {mesh} arcs per segment, expected {_LEAST_ARCS} to {_MOST_ARCS}")
@@ -217,6 +219,17 @@ def free_form(
     if solver == "ipopt" and not casadi.has_nlpsol("ipopt"):
         solver = "highs"
         notes.append("this CasADi has no IPOPT: solved by sequential linear programs")
+    if asked.on_tool:
+        without = free_form(
+            problem,
+            conditions=asked.without_tool(problem.dof),
+            mesh=mesh,
+            tolerance=tolerance,
+            solver=solver,
+            time_limit=time_limit,
+            stop=stop,
+        )
+        return _under_tool(without, asked, tolerance, deadline, progress, begun)
     task = ConditionedProblem(problem, asked)
     if not task.n_segments:
         return _nothing_moves(problem, asked, begun)
@@ -250,6 +263,45 @@ def free_form(
         _reason(status, search),
         tuple(notes),
         search.sensitivity,
+        tuple(search.stages),
+        time.perf_counter() - begun,
+    )
+
+
+def _under_tool(
+    without: FreeForm,
+    asked: Conditions,
+    tolerance: float,
+    deadline: Deadline,
+    progress: Callable[[str, float], None] | None,
+    begun: float,
+) -> FreeForm:
+    """The fastest motion under limits on the tool, searched from the fastest one without them."""
+    problem = without.problem
+    if without.trajectory is None:
+        return replace(without, conditions=asked)
+    search = ToolSearch(Demands.of(problem, asked), progress, deadline)
+    search.run(without.trajectory, tolerance)
+    best = search.best
+    if best is None:
+        line = f"no motion found that keeps {_named(asked)}"
+        if deadline.over:
+            raise NotFoundInTime(f"time limit: {line} yet")
+        raise NoFeasibleMotion(f"{line}; the last one tried: {search.stages[-1].status}")
+    status = SearchStatus.OK if search.converged else SearchStatus.NOT_CONVERGED
+    if deadline.over:
+        status = SearchStatus.INTERRUPTED if deadline.interrupted else SearchStatus.TIME_LIMIT
+    return FreeForm(
+        problem,
+        asked,
+        np.diff(best.trajectory.passage_times),
+        best.trajectory,
+        best.verdict,
+        best.name,
+        status,
+        search.reason if status is SearchStatus.NOT_CONVERGED else "",
+        without.notes,
+        None,
         tuple(search.stages),
         time.perf_counter() - begun,
     )
@@ -290,9 +342,7 @@ def _reason(status: SearchStatus, search: MeshRefinement) -> str:
 
 def _named(asked: Conditions) -> str:
     """The conditions that were asked for, by their keys."""
-    named = [key for key in ("passage", "total", "stops", "segment_limits") if getattr(asked, key)]
-    named += [key for key in ("start_velocity", "end_velocity") if getattr(asked, key) is not None]
-    return f"conditions.{', conditions.'.join(named)}"
+    return f"conditions.{', conditions.'.join(asked.asked)}"
 
 
 def _why_not(problem: Problem, asked: Conditions, search: MeshRefinement) -> str:
