@@ -289,7 +289,7 @@ class ToolProgram:
         if near not in self._solvers:
             options = {
                 "ipopt.tol": 1e-8,
-                "ipopt.max_iter": 400,
+                "ipopt.max_iter": 200,
                 "ipopt.mu_strategy": "monotone",
                 "ipopt.mu_init": near,
             }

@@ -25,7 +25,7 @@ from formulations.optima.free_form.tool.stepped import Stepped
 from formulations.problem.demands import Demands
 from formulations.problem.errors import UnsupportedProblem
 
-_MESHES = (8, 16, 32)  # steps per segment
+_MESHES = (8, 16, 32)  # steps per segment; the last one for tolerances below 1e-3
 _ROUNDS = 6  # of the exchange on one mesh
 _STRETCHES = 8
 _MOST_NODES = 4000  # joints times steps of a program
@@ -97,26 +97,28 @@ class ToolSearch:
         d = self.demands
         motion = Stepped.sampled(start, self.third, _MESHES[0], d.waits)
         verdict = self._offer("fastest without limits on the tool, slowed down", motion, start)
+        if verdict.feasible:  # the limits on the tool cost nothing
+            return
         motion = motion.stretched(float(np.clip(verdict.stretch, 1.0, 10.0)))
         before = np.inf
-        for level, steps in enumerate(_MESHES):
+        for level, steps in enumerate(_MESHES if tolerance < 1e-3 else _MESHES[:-1]):
             size = d.tool_speed.size * steps * d.problem.dof
             if self.deadline.over or (level and size > _MOST_NODES):
                 break
-            motion = self._exchange(motion, steps)
+            motion = self._exchange(motion, steps, near=1e-4 if level else 1e-2)
             now = np.inf if self.best is None else self.best.verdict.seconds
-            if before - now <= max(tolerance, 1e-3) * now and np.isfinite(now) and level:
+            if level and before - now <= 0.1 * tolerance * now:
                 break
             before, motion = now, motion.split()
 
-    def _exchange(self, motion: Stepped, steps: int) -> Stepped:
-        """Solve on one mesh until the check finds no more than the program does."""
+    def _exchange(self, motion: Stepped, steps: int, near: float) -> Stepped:
+        """Solve on one mesh until the check finds no more than the program does; near: the first barrier."""
         d, chain = self.demands, self.demands.problem.tool
         assert chain is not None
         N = d.tool_speed.size * steps
         program = ToolProgram(d, steps, float(motion.h.sum() / d.tool_speed.size))
         asked = np.repeat(d.tool_speed, steps)
-        limits, near = asked.copy(), 1e-2
+        limits = asked.copy()
         for number in range(_ROUNDS):
             if self.deadline.over:
                 break
