@@ -174,7 +174,7 @@ def plan(
     if not (np.isfinite(gap) and gap > 0.0):
         raise InputError(f"gap: {gap:g} is not positive")
     say = progress or (lambda line: None)
-    asked = conditions or Conditions()
+    asked = problem.conditions if conditions is None else conditions
     deadline = Deadline(time_limit, stop)
     found = free_form(
         problem,

@@ -64,8 +64,11 @@ def _product(a: Array, b: Array) -> Array:
     return np.stack([(a[: n + 1] * b[n::-1]).sum(axis=0) for n in range(len(a))])
 
 
-def levers(chain: LinkChain, positions: Array) -> Array:
-    """Bound how far the tool moves per unit of each joint, wherever the other joints are.
+def curvatures(chain: LinkChain, positions: Array) -> Array:
+    """Bound the second derivatives of the tool point by the joint positions, wherever the joints are.
+
+    For steps i <= k from base to tip, the second derivative is the axis of i crossed with the first derivative by
+    k where i turns, and 0 where i slides. The first derivative by k is no longer than its lever.
 
     Parameters
     ----------
@@ -75,15 +78,43 @@ def levers(chain: LinkChain, positions: Array) -> Array:
 
     Returns
     -------
-    Array, shape (dof,)
+    Array, shape (dof, dof)
+        Symmetric.
+    """
+    found = np.zeros((chain.dof, chain.dof))
+    levers = step_levers(chain, positions)
+    for k, later in enumerate(chain.steps):
+        for i, first in enumerate(chain.steps[: k + 1]):
+            if first.prismatic:
+                continue
+            value = abs(first.factor) * levers[k]
+            found[first.variable, later.variable] += value
+            if i < k:
+                found[later.variable, first.variable] += value
+    return found * (1.0 + 1e-12)  # above what rounding takes off
+
+
+def step_levers(chain: LinkChain, positions: Array) -> Array:
+    """Bound how far the tool moves per unit of the variable of each step.
+
+    Parameters
+    ----------
+    chain : LinkChain
+    positions : Array, shape (dof,)
+        As for ``curvatures``.
+
+    Returns
+    -------
+    Array, shape (n_steps,)
         [m/rad, or 1].
     """
-    found = np.zeros(chain.dof)
+    found = np.zeros(len(chain.steps))
     size = float(np.linalg.norm(chain.end[:3, 3]))
-    for step in reversed(chain.steps):
+    for k in reversed(range(len(chain.steps))):
+        step = chain.steps[k]
         size += float(np.linalg.norm(step.after[:3, 3]))
-        found[step.variable] += abs(step.factor) * (1.0 if step.prismatic else size)
+        found[k] = abs(step.factor) * (1.0 if step.prismatic else size)
         if step.prismatic:
             size += abs(step.factor) * positions[step.variable] + abs(step.offset)
         size += float(np.linalg.norm(step.before[:3, 3]))
-    return found * (1.0 + 1e-12)  # above what rounding takes off
+    return found * (1.0 + 1e-12)

@@ -12,7 +12,7 @@ from formulations.motion.smoothness import TOLERANCE
 from formulations.motion.tool_speed import ToolSpeed, tool_speed
 from formulations.motion.trajectory import Trajectory
 from formulations.problem.arrays import Array
-from formulations.problem.conditions import Conditions
+from formulations.problem.demands import Demands
 from formulations.problem.problem import Problem
 
 TOOL_SPEED = "tool speed"
@@ -29,25 +29,23 @@ class ToolPeak(Peak):
         )
 
 
-def tool_peaks(problem: Problem, trajectory: Trajectory, asked: Conditions) -> list[ToolPeak]:
+def tool_peaks(demands: Demands, trajectory: Trajectory) -> list[ToolPeak]:
     """Find the worst place of the tool's speed.
 
     Parameters
     ----------
-    problem : Problem
-        With a chain to the tool, if its speed is limited.
+    demands : Demands
+        Their problem has a chain to the tool, if its speed is limited.
     trajectory : Trajectory
         The motion.
-    asked : Conditions
-        The limits.
 
     Returns
     -------
     list of ToolPeak
         One, or none where the speed is not limited.
     """
-    limits = asked.tool_speeds(problem.n_segments)
-    found = tool_speeds(problem, trajectory, limits)
+    limits = demands.tool_speed
+    found = tool_speeds(demands.problem, trajectory, limits)
     if found is None:
         return []
     factors = found.speed / limits
@@ -91,27 +89,26 @@ def tool_speeds(problem: Problem, trajectory: Trajectory, limits: Array) -> Tool
     return tool_speed(problem.tool, trajectory, np.clip(segments, 0, problem.n_segments - 1), limits)
 
 
-def tool_faults(problem: Problem, trajectory: Trajectory, asked: Conditions) -> Iterator[str]:
+def tool_faults(demands: Demands, trajectory: Trajectory) -> Iterator[str]:
     """Say which balls of the tool are missed.
 
     Parameters
     ----------
-    problem : Problem
-        With a chain to the tool, if there are balls.
+    demands : Demands
+        Their problem has a chain to the tool, if there are balls.
     trajectory : Trajectory
         The motion; judged where it has a passage time for each waypoint.
-    asked : Conditions
-        The balls.
 
     Yields
     ------
     str
         A line each.
     """
-    times = trajectory.passage_times
+    problem, times = demands.problem, trajectory.passage_times
     if problem.tool is None or len(times) != problem.n_segments + 1:
         return
-    for waypoint, radius in sorted(asked.tool_zones.items()):
+    for waypoint in np.flatnonzero(np.isfinite(demands.tool_radius)).tolist():
+        radius = float(demands.tool_radius[waypoint])
         passed, wanted = problem.tool.forward(
             np.stack([trajectory.at(times[waypoint]), problem.waypoints[waypoint]])
         )[:, :3, 3]

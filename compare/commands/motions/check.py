@@ -7,7 +7,7 @@ from typing import Annotated
 from cyclopts import Parameter
 
 from compare.commands import BROKEN, DONE
-from compare.commands.motions.condition_options import ConditionOptions, conditions_of
+from compare.commands.motions.condition_options import ConditionOptions
 from compare.commands.motions.problem_options import (
     FileOrRobot,
     OwnRobot,
@@ -63,8 +63,7 @@ def check_motion(
         file, motion = None, file
     if motion is None:
         raise InputError("MOTION: missing: a problem FILE and MOTION are needed, or MOTION and --robot")
-    problem = problem_of(file, own)
-    conditions = conditions_of(asked, problem)
+    problem = problem_of(file, own, asked)
     points = read_points(motion)
     with stages(problem.name) as stage:
         stage("extremes, waypoints, bound")
@@ -73,7 +72,6 @@ def check_motion(
             points,
             interpolation=interpolation,
             tolerance=tolerance,
-            conditions=conditions,
             bound=bound,
         )
     show(as_text(motion, found), found.to_json(), json)

@@ -9,6 +9,7 @@ from cyclopts import Parameter
 
 from compare.commands import BAD_INPUT, DONE, FAILED, INTERRUPTED
 from compare.commands.motions.climbing import chosen_rungs, climb, unsolved
+from compare.commands.motions.condition_options import PlanConditionOptions
 from compare.commands.motions.problem_options import FileOrRobot, OwnRobotOptions, problem_of
 from compare.commands.options import (
     Export,
@@ -38,6 +39,7 @@ def solve(
     /,
     *,
     own: OwnRobotOptions = None,
+    asked: PlanConditionOptions = None,
     json: Json = None,
     certificate: Annotated[str | None, Parameter(metavar="FILE", validator=writable)] = None,
     motion_certificate: Annotated[str | None, Parameter(metavar="FILE", validator=writable)] = None,
@@ -62,7 +64,7 @@ def solve(
     motion_certificate
         Write the proof of free_form_lower, which holds for every motion.
     """
-    problem = problem_of(file, own)
+    problem = problem_of(file, own, asked)
     if export is not None:
         check_export(export, problem, rate)
     chosen = chosen_rungs(problem, rungs, without)

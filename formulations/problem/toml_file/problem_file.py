@@ -10,9 +10,10 @@ from typing import TYPE_CHECKING, Any
 from formulations.arms import Arm, load_arm
 from formulations.families import FAMILIES
 from formulations.problem.arrays import Array
-from formulations.problem.errors import InputError
+from formulations.problem.errors import InputError, UnsupportedProblem
 from formulations.problem.joint_words import METRES, UNITS
 from formulations.problem.problem import Problem
+from formulations.problem.toml_file.condition_table import conditions_of_table
 from formulations.problem.toml_file.keys import PROBLEM_KEYS
 from formulations.problem.toml_file.limit_table import limits_of_robot, limits_of_table
 from formulations.problem.toml_file.poses import (
@@ -40,6 +41,7 @@ from formulations.problem.toml_file.toml_values import (
 from formulations.robot.text.files import decode, read_bytes
 
 if TYPE_CHECKING:
+    from formulations.kinematics.link_chain import LinkChain
     from formulations.robot import Robot
 
 CASES: tuple[str, ...] = tuple(
@@ -120,7 +122,8 @@ def parse(text: str, *, where: str = "problem", folder: str | Path = ".") -> Pro
     ----------
     text : str
         The keys are in ``keys``: ``waypoints``, ``waypoints_file``, or ``robot`` or ``arm`` and ``[[pose]]``;
-        ``[limits]``, or ``robot`` and ``limits_file``; and ``name``, ``joints``, ``unit``, ``family``, ....
+        ``[limits]``, or ``robot`` and ``limits_file``; ``[conditions]``; and ``name``, ``joints``, ``unit``,
+        ``family``, ....
     where : str
         Start of every error line.
     folder : str or Path
@@ -174,6 +177,9 @@ def _problem(data: dict[str, Any], folder: Path) -> Problem:
         if "limits" not in data:
             raise InputError("limits: missing")
         limits, limit_unit = limits_of_table(data["limits"], unit, names, units, reach)
+    conditions = None
+    if "conditions" in data:
+        conditions = conditions_of_table(data["conditions"], unit, names, limits, len(waypoints))
     problem = Problem(
         waypoints,
         limits,
@@ -185,10 +191,27 @@ def _problem(data: dict[str, Any], folder: Path) -> Problem:
         names=names,
         units=units,
         unit=angle,
+        conditions=conditions,
+        tool=_tool(data, robot, dof),
     )
     if family is not None:
-        FAMILIES[family].require(problem)
+        reason = FAMILIES[family].refusal(problem.n_segments)
+        if reason is not None:
+            raise UnsupportedProblem(f"family: {reason}")
     return problem
+
+
+def _tool(data: dict[str, Any], robot: Robot | None, dof: int) -> LinkChain | None:
+    """The chain from base to tool of the robot or arm that the file names; None where there is none."""
+    if robot is not None and robot.urdf is not None:
+        try:
+            return robot.chain
+        except InputError:  # other joints move the tool too: no condition on it can be asked for
+            return None
+    arm = load_arm(read_text("arm", data["arm"])) if "arm" in data else None
+    if arm is not None and arm.dof != dof:
+        raise InputError(f"arm: {arm.name} has {arm.dof} joints, the waypoints {dof}")
+    return None if arm is None else arm.tool
 
 
 def _robot(data: dict[str, Any], folder: Path) -> Robot | None:
@@ -214,6 +237,8 @@ def _waypoints(
         "pose" if robot is not None else "arm"
     )  # a robot's own kinematics, or those of a shipped arm
     given = [key for key in ("waypoints", "waypoints_file", posed) if key in data]
+    if "arm" in given[1:] and not set(POSED[1:]) & set(data):
+        given.remove("arm")  # beside waypoints it says where the tool is
     if not given:
         raise InputError("waypoints: missing")
     if len(given) > 1:
