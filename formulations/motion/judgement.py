@@ -246,7 +246,8 @@ def judge(
         violations=tuple(
             peak
             for peak in peaks
-            if peak.factor > 1.0 + (TOLERANCE if peak.joint < 0 else over[QUANTITIES.index(peak.quantity)][peak.joint])
+            if peak.factor
+            > 1.0 + (TOLERANCE if peak.joint < 0 else over[QUANTITIES.index(peak.quantity)][peak.joint])
         ),
         jumps=tuple(jumps(problem, trajectory, smooth)),
         not_at_rest=tuple(moving),

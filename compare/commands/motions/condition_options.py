@@ -74,7 +74,9 @@ class AskedConditions:
     ] = ()
     tool_speed: Annotated[
         float | None,
-        Parameter(metavar="S", help="The tool moves at most at S m/s; the file names a robot or an arm."),
+        Parameter(
+            metavar="S", help="The tool moves at most at S m/s; the file names a robot or an arm."
+        ),
     ] = None
     tool_zone: Annotated[
         tuple[str, ...],

@@ -245,7 +245,11 @@ def free_form(
         raise NotFoundInTime(f"{status}: no motion was found yet that keeps {_named(asked)}")
     if best is None:
         raise NoFeasibleMotion(_why_not(problem, asked, search))
-    if asked.none and problem.limits.symmetric and best.verdict.seconds > 0.999 * search.stages[0].seconds:
+    if (
+        asked.none
+        and problem.limits.symmetric
+        and best.verdict.seconds > 0.999 * search.stages[0].seconds
+    ):
         best = _or_ruckig(problem, best)
     if task.group(1):
         notes.append(

@@ -19,6 +19,7 @@ class Enclosed:
 
     low: Array
     high: Array
+    __array_ufunc__ = None  # an array times one of these asks this class
 
     @staticmethod
     def of(value: Any) -> Enclosed:
@@ -107,9 +108,7 @@ class Sloped:
 
     def __mul__(self, other: Any) -> Sloped:
         if isinstance(other, Sloped):
-            return Sloped(
-                self.value * other.value, self.slope * other.value + self.value * other.slope
-            )
+            return Sloped(self.value * other.value, self.slope * other.value + self.value * other.slope)
         return Sloped(self.value * other, self.slope * other)
 
 

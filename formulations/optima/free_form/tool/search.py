@@ -22,6 +22,7 @@ from formulations.motion.verdict import Verdict, check
 from formulations.optima.free_form.stage import Stage
 from formulations.optima.free_form.tool.program import ToolProgram
 from formulations.optima.free_form.tool.stepped import Stepped
+from formulations.problem.arrays import Array
 from formulations.problem.demands import Demands
 from formulations.problem.errors import UnsupportedProblem
 
@@ -101,24 +102,30 @@ class ToolSearch:
             return
         motion = motion.stretched(float(np.clip(verdict.stretch, 1.0, 10.0)))
         before = np.inf
-        for level, steps in enumerate(_MESHES if tolerance < 1e-3 else _MESHES[:-1]):
+        limits = np.repeat(d.tool_speed, _MESHES[0])
+        meshes = _MESHES[: 1 + (tolerance < 1e-2) + (tolerance < 1e-3)]
+        for level, steps in enumerate(meshes):
             size = d.tool_speed.size * steps * d.problem.dof
             if self.deadline.over or (level and size > _MOST_NODES):
                 break
-            motion = self._exchange(motion, steps, near=1e-4 if level else 1e-2)
+            motion, limits = self._exchange(motion, limits, steps, near=1e-4 if level else 1e-2)
             now = np.inf if self.best is None else self.best.verdict.seconds
             if level and before - now <= 0.1 * tolerance * now:
                 break
-            before, motion = now, motion.split()
+            before, motion, limits = now, motion.split(), np.repeat(limits, 2)
 
-    def _exchange(self, motion: Stepped, steps: int, near: float) -> Stepped:
-        """Solve on one mesh until the check finds no more than the program does; near: the first barrier."""
+    def _exchange(
+        self, motion: Stepped, limits: Array, steps: int, near: float
+    ) -> tuple[Stepped, Array]:
+        """Solve on one mesh until the check finds no more than the program does.
+
+        limits: (S steps,), those on the steps to begin with [m/s]. near: the first barrier parameter.
+        """
         d, chain = self.demands, self.demands.problem.tool
         assert chain is not None
         N = d.tool_speed.size * steps
         program = ToolProgram(d, steps, float(motion.h.sum() / d.tool_speed.size))
         asked = np.repeat(d.tool_speed, steps)
-        limits = asked.copy()
         for number in range(_ROUNDS):
             if self.deadline.over:
                 break
@@ -126,7 +133,7 @@ class ToolSearch:
             name = f"{steps} steps per segment" + (f", limits lowered {number}" if number else "")
             before = self.best
             self._offer(name, found, found.assembled(d.waits, d.waypoints), status)
-            if self.best is not before or not converged:
+            if self.best is not before:
                 self.converged, self.reason = converged, "" if converged else status
             if not converged:
                 break
@@ -135,11 +142,16 @@ class ToolSearch:
                 break
             plain = found.assembled(np.zeros_like(d.waits), d.waypoints)
             speeds = tool_speed(chain, plain, np.arange(N), asked).speed
-            factors = np.where(np.isfinite(asked), speeds / asked, 0.0)
-            if factors.max() <= 1.0 + 1e-6:
+            factors = np.where(np.isfinite(asked), speeds / asked, 1.0)
+            # a limit that was lowered too far is raised again
+            better = np.where(
+                np.isfinite(asked), np.minimum(asked, limits / np.maximum(factors, 0.9)), asked
+            )
+            near = 1e-5
+            if np.allclose(better, limits, rtol=1e-6):
                 break
-            limits, near = limits / np.maximum(factors, 1.0), 1e-5
-        return motion
+            limits = better
+        return motion, limits
 
     def _offer(self, name: str, motion: Stepped, whole: Trajectory, status: str = "") -> Verdict:
         """Judge a motion, stretched where that mends it, and keep it if it is the best; gives the first verdict."""
