@@ -220,16 +220,16 @@ def free_form(
         solver = "highs"
         notes.append("this CasADi has no IPOPT: solved by sequential linear programs")
     if asked.on_tool:
+        ToolSearch(Demands.of(problem, asked), None, deadline)  # refuses what it cannot do
         without = free_form(
-            problem,
-            conditions=asked.without_tool(problem.dof),
+            replace(problem, conditions=asked.without_tool(problem.dof)),
             mesh=mesh,
             tolerance=tolerance,
             solver=solver,
             time_limit=time_limit,
             stop=stop,
         )
-        return _under_tool(without, asked, tolerance, deadline, progress, begun)
+        return _under_tool(problem, without, asked, tolerance, deadline, progress, begun)
     task = ConditionedProblem(problem, asked)
     if not task.n_segments:
         return _nothing_moves(problem, asked, begun)
@@ -273,6 +273,7 @@ def free_form(
 
 
 def _under_tool(
+    problem: Problem,
     without: FreeForm,
     asked: Conditions,
     tolerance: float,
@@ -281,9 +282,8 @@ def _under_tool(
     begun: float,
 ) -> FreeForm:
     """The fastest motion under limits on the tool, searched from the fastest one without them."""
-    problem = without.problem
     if without.trajectory is None:
-        return replace(without, conditions=asked)
+        return replace(without, problem=problem, conditions=asked)
     search = ToolSearch(Demands.of(problem, asked), progress, deadline)
     search.run(without.trajectory, tolerance)
     best = search.best

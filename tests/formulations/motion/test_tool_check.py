@@ -13,7 +13,7 @@ from formulations import Conditions, InputError, Problem, Trajectory, check, fre
 from formulations.kinematics.link_chain import LinkChain
 from formulations.motion.judgement import judge
 from formulations.motion.tool_speed import tool_speed
-from tests.tool_problems import LIMITS, hinge, planar, slider, two_links, ur5
+from tool_problems import LIMITS, hinge, planar, slider, two_links, ur5
 
 
 def random_motion(dof: int, seed: int) -> Trajectory:

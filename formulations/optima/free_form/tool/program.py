@@ -3,7 +3,7 @@
 Each segment has N steps with durations h of their own. At the nodes between them stand positions q, velocities v
 and, for joints with a jerk limit, accelerations a; in between the jerk is constant:
 
-    minimise    sum h
+    minimise    sum h + w sum |v+ - v|^2, with w going to 0 in the search
     subject to, on each step,
         v+ - v = h (a + a+) / 2,    q+ - q = h v + h^2 (2 a + a+) / 6                    (1)
         |a+ - a| <= J h                                                                  (2)
@@ -96,9 +96,11 @@ class ToolProgram:
         self.low, self.high = self._bounds()
         total = demands.conditions.total
         cost = casadi.sum1(self.h) if total is None else self._roughness()
+        self.weight = casadi.SX.sym("weight")
+        cost += self.weight * casadi.sumsqr(self.v[:, 1:] - self.v[:, :-1])
         nlp = {
             "x": self.x,
-            "p": self.speeds,
+            "p": casadi.vertcat(self.speeds, self.weight),
             "f": cost,
             "g": casadi.vertcat(*(rows.symbols for rows in self.rows)),
         }
@@ -262,7 +264,13 @@ class ToolProgram:
         return sides[0], sides[1]
 
     def solve(
-        self, start: Stepped, limits: Array, deadline: Deadline, *, near: float = 1e-3
+        self,
+        start: Stepped,
+        limits: Array,
+        deadline: Deadline,
+        *,
+        near: float = 1e-3,
+        weight: float = 0.0,
     ) -> tuple[Stepped, bool, str]:
         """Solve from a motion.
 
@@ -275,6 +283,9 @@ class ToolProgram:
         deadline : Deadline
         near : float
             Barrier parameter to start with.
+        weight : float
+            Of the squares of the changes of velocity on steps, in the objective: they keep the motion from swinging
+            between samples.
 
         Returns
         -------
@@ -300,7 +311,7 @@ class ToolProgram:
             solved = self._solvers[near].solve(
                 deadline,
                 x0=point,
-                p=squares,
+                p=np.append(squares, weight),
                 lbx=self.low,
                 ubx=self.high,
                 lbg=self.row_low,

@@ -27,7 +27,7 @@ from formulations.problem.demands import Demands
 from formulations.problem.errors import UnsupportedProblem
 
 _MESHES = (8, 16, 32)  # steps per segment; the last one for tolerances below 1e-3
-_ROUNDS = 6  # of the exchange on one mesh
+_WEIGHTS = (1e-2, 1e-3, 1e-4, 0.0, 0.0, 0.0)  # of changes of velocity, by rounds of the exchange on one mesh
 _STRETCHES = 8
 _MOST_NODES = 4000  # joints times steps of a program
 
@@ -100,7 +100,7 @@ class ToolSearch:
         verdict = self._offer("fastest without limits on the tool, slowed down", motion, start)
         if verdict.feasible:  # the limits on the tool cost nothing
             return
-        motion = motion.stretched(float(np.clip(verdict.stretch, 1.0, 10.0)))
+        motion = motion.stretched(float(np.clip(verdict.stretch, 1.0, 1e3)))
         before = np.inf
         limits = np.repeat(d.tool_speed, _MESHES[0])
         meshes = _MESHES[: 1 + (tolerance < 1e-2) + (tolerance < 1e-3)]
@@ -126,10 +126,12 @@ class ToolSearch:
         N = d.tool_speed.size * steps
         program = ToolProgram(d, steps, float(motion.h.sum() / d.tool_speed.size))
         asked = np.repeat(d.tool_speed, steps)
-        for number in range(_ROUNDS):
+        for number, weight in enumerate(_WEIGHTS):
             if self.deadline.over:
                 break
-            found, converged, status = program.solve(motion, limits, self.deadline, near=near)
+            found, converged, status = program.solve(
+                motion, limits, self.deadline, near=near, weight=weight
+            )
             name = f"{steps} steps per segment" + (f", limits lowered {number}" if number else "")
             before = self.best
             self._offer(name, found, found.assembled(d.waits, d.waypoints), status)
@@ -148,7 +150,7 @@ class ToolSearch:
                 np.isfinite(asked), np.minimum(asked, limits / np.maximum(factors, 0.9)), asked
             )
             near = 1e-5
-            if np.allclose(better, limits, rtol=1e-6):
+            if not weight and np.allclose(better, limits, rtol=1e-6):
                 break
             limits = better
         return motion, limits
@@ -159,7 +161,7 @@ class ToolSearch:
         first = verdict = check(d.problem, whole, conditions=d.conditions)
         factor = 1.0
         for attempt in range(_STRETCHES):
-            if verdict.feasible or not (verdict.position_kept and 1.0 < verdict.stretch < 10.0):
+            if verdict.feasible or not (verdict.position_kept and 1.0 < verdict.stretch < 1e3):
                 break
             factor *= verdict.stretch * (1.0 + 10.0 ** (attempt - 13))
             again = self._stretched(motion, whole, factor)
