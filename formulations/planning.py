@@ -137,8 +137,9 @@ def plan(
     problem : Problem
         Waypoints and limits.
     conditions : Conditions, optional
-        Stops, passage times, a total time, velocities at the ends, limits of single segments. The bound is
-        that of the motions that keep them; with a total time it says how fast they could be.
+        Zones, times, stops, waits, states at the ends, limits of single segments; those of the problem if
+        left out. The bound is that of the motions that keep them; with a total time it says how fast they
+        could be.
     gap : float, default 1e-3
         Relative gap to be reached.
     bound : bool, default True

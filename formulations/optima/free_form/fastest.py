@@ -5,6 +5,7 @@ from __future__ import annotations
 import time
 from collections.abc import Callable
 from dataclasses import dataclass, replace
+from functools import partial
 from typing import Literal
 
 import casadi
@@ -20,10 +21,11 @@ from formulations.optima.free_form.nlp.assembly import RAMP
 from formulations.optima.free_form.nlp.conditioned import ConditionedProblem
 from formulations.optima.free_form.sensitivity import Sensitivity
 from formulations.optima.free_form.stage import Stage, VerifiedMotion
-from formulations.optima.free_form.tool.search import ToolSearch
+from formulations.optima.free_form.tool.answer import under_tool
+from formulations.optima.free_form.vanishing import searched
+from formulations.optima.free_form.why_not import named, why_not
 from formulations.problem.arrays import Array
 from formulations.problem.conditions import Conditions
-from formulations.problem.demands import Demands
 from formulations.problem.errors import InputError, NoFeasibleMotion, NotFoundInTime
 from formulations.problem.problem import Problem
 from formulations.problem.size import require_moderate
@@ -127,7 +129,8 @@ def free_form(
     problem : Problem
         Waypoints, shape (n_waypoints, dof) [rad], and limits per joint.
     conditions : Conditions, optional
-        Passage times, total time, stops, end velocities, limits of single segments.
+        Zones, times, stops, waits, states at the ends, cycles, limits of single segments. Those of the
+        problem if left out.
     mesh : int, default 7
         Arcs per segment and joint to begin with, 3 to 100. The profiles of Ruckig have seven, and few
         optima need more.
@@ -220,31 +223,34 @@ def free_form(
         solver = "highs"
         notes.append("this CasADi has no IPOPT: solved by sequential linear programs")
     if asked.on_tool:
-        ToolSearch(Demands.of(problem, asked), None, deadline)  # refuses what it cannot do
-        without = free_form(
-            replace(problem, conditions=asked.without_tool(problem.dof)),
-            mesh=mesh,
-            tolerance=tolerance,
-            solver=solver,
-            time_limit=time_limit,
-            stop=stop,
+        return under_tool(
+            problem,
+            asked,
+            partial(free_form, mesh=mesh, tolerance=tolerance, solver=solver, stop=stop),
+            tolerance,
+            deadline,
+            progress,
         )
-        return _under_tool(problem, without, asked, tolerance, deadline, progress, begun)
     task = ConditionedProblem(problem, asked)
     if not task.n_segments:
         return _nothing_moves(problem, asked, begun)
-    search = MeshRefinement(task, solver, progress, deadline)
-    with np.errstate(all="ignore"):  # what overflows is not finite, and the check refuses it
+
+    def run(task: ConditionedProblem) -> MeshRefinement:
+        search = MeshRefinement(task, solver, progress, deadline)
         if task.timed:
-            notes += search.run_timed(mesh)
+            notes.extend(note for note in search.run_timed(mesh) if note not in notes)
         else:
             search.run(mesh, tolerance)
+        return search
+
+    with np.errstate(all="ignore"):  # what overflows is not finite, and the check refuses it
+        search = searched(task, run)
     best = search.best
     status = search.status(tolerance)
     if best is None and search.ended:
-        raise NotFoundInTime(f"{status}: no motion was found yet that keeps {_named(asked)}")
+        raise NotFoundInTime(f"{status}: no motion was found yet that keeps {named(asked)}")
     if best is None:
-        raise NoFeasibleMotion(_why_not(problem, asked, search))
+        raise NoFeasibleMotion(why_not(search))
     if (
         asked.none
         and problem.limits.symmetric
@@ -267,45 +273,6 @@ def free_form(
         _reason(status, search),
         tuple(notes),
         search.sensitivity,
-        tuple(search.stages),
-        time.perf_counter() - begun,
-    )
-
-
-def _under_tool(
-    problem: Problem,
-    without: FreeForm,
-    asked: Conditions,
-    tolerance: float,
-    deadline: Deadline,
-    progress: Callable[[str, float], None] | None,
-    begun: float,
-) -> FreeForm:
-    """The fastest motion under limits on the tool, searched from the fastest one without them."""
-    if without.trajectory is None:
-        return replace(without, problem=problem, conditions=asked)
-    search = ToolSearch(Demands.of(problem, asked), progress, deadline)
-    search.run(without.trajectory, tolerance)
-    best = search.best
-    if best is None:
-        line = f"no motion found that keeps {_named(asked)}"
-        if deadline.over:
-            raise NotFoundInTime(f"time limit: {line} yet")
-        raise NoFeasibleMotion(f"{line}; the last one tried: {search.stages[-1].status}")
-    status = SearchStatus.OK if search.converged else SearchStatus.NOT_CONVERGED
-    if deadline.over:
-        status = SearchStatus.INTERRUPTED if deadline.interrupted else SearchStatus.TIME_LIMIT
-    return FreeForm(
-        problem,
-        asked,
-        np.diff(best.trajectory.passage_times),
-        best.trajectory,
-        best.verdict,
-        best.name,
-        status,
-        search.reason if status is SearchStatus.NOT_CONVERGED else "",
-        without.notes,
-        None,
         tuple(search.stages),
         time.perf_counter() - begun,
     )
@@ -342,27 +309,3 @@ def _reason(status: SearchStatus, search: MeshRefinement) -> str:
     if status is SearchStatus.NOT_CONVERGED:
         return search.reason or "the local solve converged to a slower motion"
     return ""
-
-
-def _named(asked: Conditions) -> str:
-    """The conditions that were asked for, by their keys."""
-    return f"conditions.{', conditions.'.join(asked.asked)}"
-
-
-def _why_not(problem: Problem, asked: Conditions, search: MeshRefinement) -> str:
-    """One line that names the conditions and, where times are fixed, the nearest times that are possible."""
-    last = next((stage.status for stage in reversed(search.stages) if stage.status), "")
-    if asked.none:
-        return (
-            f"no motion passes the check, as the numbers are too far apart for double precision: {last}"
-        )
-    line = f"no motion found that keeps {_named(asked)}"
-    near = search.nearest
-    if near is not None and search.missed > 0.0:
-        found = dict(enumerate([0.0, *np.cumsum(near.times)]))
-        passed = [
-            f"waypoint {w} at {found[search.task.waypoint_of[w]]:.9g} s, {time:.9g} s asked for"
-            for w, time in sorted(asked.times(problem).items())
-        ]
-        return f"{line}; the nearest one found passes {'; '.join(passed)}"
-    return f"{line}; the last one tried: {last}"

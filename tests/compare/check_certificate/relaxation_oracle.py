@@ -1,4 +1,4 @@
-"""The relaxation under demands once more, in floats: boxes and rows, a linear program, certificates."""
+"""The relaxation under demands once more, in floats: boxes and rows."""
 
 from __future__ import annotations
 
@@ -7,8 +7,6 @@ from typing import Any
 
 import numpy as np
 from demanded_motions import Scenario
-from scipy.optimize import linprog
-from scipy.sparse import lil_array
 
 Key = tuple[Any, ...]
 Row = tuple[dict[Key, float], float]
@@ -144,12 +142,23 @@ class Oracle:
                         lo = hi = 0.0
                     self.box[self.key(letter, i, j)] = (lo, hi)
                 self.box[self.key("e", i, j)] = (-self.w[i, j], self.w[i, j])
+        self._products()
+
+    def _products(self) -> None:
         for p, i in self.after.items():
             for j in range(self.dof):
                 for end, at in ((0, p), (1, i)):
                     for letter, of, by in (("W", "a", "T"), ("p", "e", "u")):
                         corners = np.outer(self.box[self.key(of, at, j)], self.box[by, p])
                         self.box[letter, p, j, end] = (corners.min(), corners.max())
+
+    def narrow(self, box: dict[Key, tuple[float, float]]) -> None:
+        """Take narrower boxes of T, a and e."""
+        self.box |= box
+        for p in self.ks:
+            lo, hi = self.box["T", p]
+            self.box["u", p], self.box["q", p] = (1 / hi, 1 / lo), (lo**2, hi**2)
+        self._products()
 
     def key(self, letter: str, i: int, j: int) -> Key:
         """A variable at a waypoint; the last one of a cycle is the first."""
@@ -312,64 +321,3 @@ class Oracle:
         row, upper = self.row(raw)
         terms = [c * values[key] for key, c in row.items()]
         return (sum(terms) - upper) / (sum(map(abs, terms)) + abs(upper) + 1e-4)
-
-
-def written(value: Any) -> Any:
-    """Arrays as a certificate writes them: hexadecimal text, null for infinity."""
-    if isinstance(value, bool):
-        return value
-    if isinstance(value, list | tuple | np.ndarray):
-        return [written(x) for x in value]
-    return float(value).hex() if np.isfinite(value) else None
-
-
-def certificate(
-    demands: dict[str, Any], seconds: float, horizon: float, events: list[Any]
-) -> dict[str, Any]:
-    """A certificate as a file holds it."""
-    x = np.array(demands["waypoints"])
-    middle = np.clip(x.mean(axis=2), x[..., 0], x[..., 1])
-    V, A = (np.abs(demands[key]).max(axis=(0, 2)) for key in ("velocity", "acceleration"))
-    J = np.max(demands["jerk"], axis=0)
-    position = np.stack(
-        [demands["position"][..., 0].min(axis=0), demands["position"][..., 1].max(axis=0)], axis=1
-    )
-    limits = {"velocity": V, "acceleration": A, "jerk": J, "position": position}
-    return {
-        "format": "timebound certificate 1",
-        "name": "random",
-        "family": "every-motion",
-        "waypoints": written(middle),
-        "limits": {key: written(value) for key, value in limits.items()},
-        "position_slack": (0.0).hex(),
-        "seconds": float(seconds).hex(),
-        "horizon": float(horizon).hex(),
-        "demands": {key: written(value) for key, value in demands.items()},
-        "events": events,
-    }
-
-
-def with_multiplier(raw: list[Any], y: float) -> list[Any]:
-    """A row as a certificate writes it."""
-    return [*(x.hex() if isinstance(x, float) else x for x in raw), float(y).hex()]
-
-
-def solved(oracle: Oracle, raws: list[list[Any]], cost: dict[Key, float] | None = None) -> Any:
-    """The least cost over some rows, and the rows with their multipliers.
-
-    The cost is the time by default.
-    """
-    keys = {key: at for at, key in enumerate(oracle.box)}
-    cost = {("T", p): 1.0 for p in oracle.ks} if cost is None else cost
-    A, b = lil_array((len(raws), len(keys))), np.zeros(len(raws))
-    for at, raw in enumerate(raws):
-        row, b[at] = oracle.row(raw)
-        for key, value in row.items():
-            A[at, keys[key]] = value
-    c = np.zeros(len(keys))
-    for key, value in cost.items():
-        c[keys[key]] = value
-    found = linprog(c, A_ub=A.tocsr(), b_ub=b, bounds=list(oracle.box.values()), method="highs")
-    assert found.status == 0, found.message
-    y = np.maximum(-found.ineqlin.marginals, 0.0)
-    return found.fun, [with_multiplier(raws[k], y[k]) for k in np.flatnonzero(y)]

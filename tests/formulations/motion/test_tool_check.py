@@ -8,12 +8,12 @@ import numpy as np
 import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
+from tool_problems import LIMITS, hinge, planar, slider, two_links, ur5
 
 from formulations import Conditions, InputError, Problem, Trajectory, check, free_form
 from formulations.kinematics.link_chain import LinkChain
 from formulations.motion.judgement import judge
 from formulations.motion.tool_speed import tool_speed
-from tool_problems import LIMITS, hinge, planar, slider, two_links, ur5
 
 
 def random_motion(dof: int, seed: int) -> Trajectory:

@@ -61,6 +61,15 @@ def test_rounding_that_costs_nothing_is_not_spoken_of() -> None:
     assert Problem(line().round(4), {"velocity": 2.0}).hints == ()  # a corner costs nothing then
 
 
+def test_a_dense_part_between_far_waypoints_is_found_too() -> None:
+    far = np.random.default_rng(2).uniform(-1.0, 1.0, (3, 3)).round(2)
+    points = np.vstack([line().round(4), far])
+    (hint,) = Problem(points, LIMITS).hints
+    second = np.abs(np.diff((points * 1e4).round(), 2, axis=0)).max(axis=1)
+    assert f"{np.sum((second > 0) & (second <= 2))} of them lie beside" in hint
+    assert Problem(np.vstack([line(), far]), LIMITS).hints == ()
+
+
 @pytest.mark.parametrize("case", CASES)
 def test_the_cases_of_the_papers_get_no_hint(case: str) -> None:
     assert load(case).hints == ()

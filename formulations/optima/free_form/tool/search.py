@@ -1,4 +1,4 @@
-"""``fastest_under_tool``: the search for the fastest motion under limits on the tool.
+"""The search for the fastest motion under limits on the tool.
 
 It starts from the fastest motion without them, slowed down as a whole until its tool is slow enough. Then it solves
 the program on finer and finer steps. The program keeps the tool's speed at samples. Where the check finds a larger
@@ -27,7 +27,18 @@ from formulations.problem.demands import Demands
 from formulations.problem.errors import UnsupportedProblem
 
 _MESHES = (8, 16, 32)  # steps per segment; the last one for tolerances below 1e-3
-_WEIGHTS = (1e-2, 1e-3, 1e-4, 0.0, 0.0, 0.0)  # of changes of velocity, by rounds of the exchange on one mesh
+_WEIGHTS = (
+    1e-2,
+    1e-2,
+    1e-3,
+    1e-3,
+    1e-4,
+    1e-5,
+    0.0,
+    0.0,
+)  # of changes of velocity, by rounds of the exchange
+_FINER = 2  # rounds that are left out on finer meshes
+_WORSE = 1.03  # times the best: a motion so slow swings between samples, and the exchange has ended
 _STRETCHES = 8
 _MOST_NODES = 4000  # joints times steps of a program
 
@@ -126,7 +137,7 @@ class ToolSearch:
         N = d.tool_speed.size * steps
         program = ToolProgram(d, steps, float(motion.h.sum() / d.tool_speed.size))
         asked = np.repeat(d.tool_speed, steps)
-        for number, weight in enumerate(_WEIGHTS):
+        for number, weight in enumerate(_WEIGHTS[_FINER * (steps > _MESHES[0]) :]):
             if self.deadline.over:
                 break
             found, converged, status = program.solve(
@@ -137,7 +148,8 @@ class ToolSearch:
             self._offer(name, found, found.assembled(d.waits, d.waypoints), status)
             if self.best is not before:
                 self.converged, self.reason = converged, "" if converged else status
-            if not converged:
+            best = np.inf if self.best is None else self.best.verdict.seconds
+            if not converged or self.stages[-1].seconds > _WORSE * best:
                 break
             motion = found
             if not np.isfinite(asked).any():

@@ -8,11 +8,11 @@ import numpy as np
 import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
+from tool_problems import LIMITS, hinge, planar, slider, two_links, ur5
 
 from formulations import Conditions, Problem, UnsupportedProblem, check, free_form, free_form_bound
 from formulations.problem.demands import Demands
 from formulations.proofs.tool.least_times import tool_least_times, with_tool_times
-from tool_problems import LIMITS, hinge, planar, slider, two_links, ur5
 
 
 @pytest.mark.parametrize("lever", [0.25, 0.8])

@@ -19,7 +19,7 @@ from compare.check_certificate.families.every_motion.implied import ImpliedLimit
 Variable = tuple[Any, ...]
 
 
-class Frame:
+class Setting:
     """Legs, limits and boxes.
 
     legs: by the waypoint where each starts, ks; after: where it ends. kept: the waypoints at their ends; ends:
