@@ -1,7 +1,8 @@
 """How far the motions found under a limit of the tool's speed are from their lower bounds, on random problems.
 
-``python -m compare.studies.tool_gaps`` draws 100 problems of the UR5 of Zhou 2025 (3 to 5 waypoints, joints within 1.5
-rad, 3.14 rad/s, 10 rad/s^2, 100 rad/s^3, tool at 0.2 to 1 m/s) and prints a line for each, then the quantiles.
+``python -m compare.studies.tool_gaps`` draws 100 problems of the UR5 of Zhou 2025 (3 to 5 waypoints, joints
+within 1.5 rad, 3.14 rad/s, 10 rad/s^2, 100 rad/s^3, tool at 0.2 to 1 m/s) and prints a line for each, then
+the quantiles.
 """
 
 from __future__ import annotations

@@ -1,10 +1,10 @@
 """Bounds on the derivatives of the tool point, from bounds on those of the joints.
 
-The point is x_k = A_k M_k(q_k) B_k x_{k+1}. For a turning joint M_k = exp(q K) with |K| = 1. Let c_i bound the
-i-th derivative of q. All derivatives of exp(q(t) K) are then bounded, in norm, by those of the power series
-exp(sum_i c_i t^i / i!) at t = 0, by Faa di Bruno's formula, in which every coefficient is positive. So the power
-series of the product bounds the derivatives of x_k. A sliding joint adds c_i to each derivative. Fixed poses add
-to the length of x_k and to no derivative.
+The point is x_k = A_k M_k(q_k) B_k x_{k+1}. For a turning joint M_k = exp(q K) with |K| = 1. Let c_i bound
+the i-th derivative of q. All derivatives of exp(q(t) K) are then bounded, in norm, by those of the power
+series exp(sum_i c_i t^i / i!) at t = 0, by Faa di Bruno's formula, in which every coefficient is positive.
+So the power series of the product bounds the derivatives of x_k. A sliding joint adds c_i to each
+derivative. Fixed poses add to the length of x_k and to no derivative.
 """
 
 from __future__ import annotations
@@ -67,8 +67,9 @@ def _product(a: Array, b: Array) -> Array:
 def curvatures(chain: LinkChain, positions: Array) -> Array:
     """Bound the second derivatives of the tool point by the joint positions, wherever the joints are.
 
-    For steps i <= k from base to tip, the second derivative is the axis of i crossed with the first derivative by
-    k where i turns, and 0 where i slides. The first derivative by k is no longer than its lever.
+    For steps i <= k from base to tip, the second derivative is the axis of i crossed with the first
+    derivative by k where i turns, and 0 where i slides. The first derivative by k is no longer than its
+    lever.
 
     Parameters
     ----------

@@ -1,8 +1,8 @@
 """The tool point of a chain on any kind of number that can be added and multiplied and has a sine.
 
-The same lines run on arrays, CasADi symbols, jets and intervals. The point is moved from the tip to the base,
-since a point needs fewer products than a pose: x := A (R(q) (B x)), and by Rodrigues' formula, for a unit axis k,
-R(q) x = x + sin q (k x x) + (1 - cos q) (k x (k x x)).
+The same lines run on arrays, CasADi symbols, jets and intervals. The point is moved from the tip to the
+base, since a point needs fewer products than a pose: x := A (R(q) (B x)), and by Rodrigues' formula, for a
+unit axis k, R(q) x = x + sin q (k x x) + (1 - cos q) (k x (k x x)).
 """
 
 from __future__ import annotations

@@ -1,10 +1,10 @@
 """The greatest speed of the tool point along a motion, bounded rigorously between samples.
 
-Let f = |p'|^2 be the square of the tool's speed on a piece of time of length w. The cubic through the values and
-slopes of f at both ends differs from f by at most w^4 / 384 max |f''''|, and its own maximum is known in closed
-form. With b_k >= |p^(k)| from ``kinematics.reach_bounds``, |f''''| <= 2 (b_1 b_5 + 4 b_2 b_4 + 3 b_3^2). Where this
-leaves the answer open, the piece is cut further: a branch and bound that ends when the bound is within a relative
-1e-10 of a value that f attains.
+Let f = |p'|^2 be the square of the tool's speed on a piece of time of length w. The cubic through the
+values and slopes of f at both ends differs from f by at most w^4 / 384 max |f''''|, and its own maximum is
+known in closed form. With b_k >= |p^(k)| from ``kinematics.reach_bounds``, |f''''| <= 2 (b_1 b_5 + 4 b_2
+b_4 + 3 b_3^2). Where this leaves the answer open, the piece is cut further: a branch and bound that ends
+when the bound is within a relative 1e-10 of a value that f attains.
 """
 
 from __future__ import annotations

@@ -11,7 +11,8 @@ PROBLEM_KEYS: dict[str, str] = {
     "waypoints": "A row per waypoint and a column per joint, in the order of the joints.",
     "limits": "The table `[limits]`; with a robot it lies over the limits of the robot's files.",
     "conditions": "The table `[conditions]`: zones, times, stops, waits, states at the ends, a cycle.",
-    "arm": "A shipped arm, whose kinematics solve the poses; needs the extra `arms`.",
+    "arm": "A shipped arm, whose kinematics solve the poses, which needs the extra `arms`, or say where the tool "
+    "is beside `waypoints`.",
     "pose": "Tables `[[pose]]` in place of waypoints, each solved to the joints nearest to the last one.",
     "length": '`"m"` or `"mm"`: unit of the positions of poses and of `waypoints_file`; m if left out.',
     "near": "Joint positions that the solution of the first pose is nearest to: a list, or a table by joint.",
@@ -72,8 +73,8 @@ WAYPOINT_KEYS: dict[str, str] = {
     "window": "Earliest and latest time at which it is passed [s]; the latest may be `inf`.",
     "wait": "How long the motion stands still there after it has arrived [s].",
     "stop": "`true`: the motion stands still there.",
-    "tool_radius": "Ball around the tool point of this waypoint in which the tool passes it [m]; each joint stays "
-    "within `tolerance` too, or within 0.1 rad or m where none is given here.",
+    "tool_radius": "Ball around the tool point of this waypoint in which the tool passes it [m]; each joint "
+    "stays within `tolerance` too, or within 0.1 rad or m where none is given here.",
 }
 """Keys of a table ``[[conditions.waypoint]]``."""
 

@@ -1,13 +1,13 @@
 """The least time of each segment under a limit of the tool's speed: its straight distance at that speed.
 
-The tool's path from one waypoint to the next is at least as long as the straight line between them. Where a waypoint
-is a zone, let u be a unit vector along the line between the tool points of the waypoints themselves, at a distance
-of d. In a box |q - w| <= D of the joints, Taylor's formula gives
+The tool's path from one waypoint to the next is at least as long as the straight line between them. Where a
+waypoint is a zone, let u be a unit vector along the line between the tool points of the waypoints
+themselves, at a distance of d. In a box |q - w| <= D of the joints, Taylor's formula gives
 
     |u (p(q) - p(w))| <= sum_j |u J_j(w)| D_j + 1/2 sum_jk C_jk D_j D_k,
 
-with C from ``kinematics.reach_bounds.curvatures``; in a ball of the tool, it is at most the radius. What is left of
-d, less both, is a lower bound on the distance. All of it is computed in intervals rounded outward.
+with C from ``kinematics.reach_bounds.curvatures``; in a ball of the tool, it is at most the radius. What is
+left of d, less both, is a lower bound on the distance. All of it is computed in intervals rounded outward.
 """
 
 from __future__ import annotations

@@ -41,7 +41,7 @@ def sampled_speed(chain: LinkChain, motion: Trajectory, count: int = 20001) -> f
 
 
 @given(st.integers(0, 10_000), st.sampled_from(["planar", "slider", "ur5"]))
-@settings(max_examples=25, deadline=None)
+@settings(max_examples=12, deadline=None)
 def test_the_bound_is_above_all_samples_and_near_them(seed: int, kind: str) -> None:
     chain = {"planar": planar([0.5, 0.4]), "slider": slider(-0.7)}.get(kind) or ur5(Conditions()).tool
     assert chain is not None

@@ -1,7 +1,7 @@
 """The nonlinear program under limits on the tool, on steps that all joints share.
 
-Each segment has N steps with durations h of their own. At the nodes between them stand positions q, velocities v
-and, for joints with a jerk limit, accelerations a; in between the jerk is constant:
+Each segment has N steps with durations h of their own. At the nodes between them stand positions q,
+velocities v and, for joints with a jerk limit, accelerations a; in between the jerk is constant:
 
     minimise    sum h + w sum |v+ - v|^2, with w going to 0 in the search
     subject to, on each step,
@@ -210,8 +210,8 @@ class ToolProgram:
         limited = np.flatnonzero(np.isfinite(d.tool_speed[self.segment])).tolist()
         squares = []
         for i in limited:
-            for u in (0.0, *INNER, 1.0):
-                squares.append(speed(*self._inside(i, u)) - self.speeds[i])
+            shares = (0.0, *INNER, 1.0)
+            squares += [speed(*self._inside(i, u)) - self.speeds[i] for u in shares]
         if squares:
             self._row(casadi.vertcat(*squares), -np.inf, 0.0)
         for k in np.flatnonzero(np.isfinite(d.tool_radius)).tolist():
@@ -284,8 +284,8 @@ class ToolProgram:
         near : float
             Barrier parameter to start with.
         weight : float
-            Of the squares of the changes of velocity on steps, in the objective: they keep the motion from swinging
-            between samples.
+            Of the squares of the changes of velocity on steps, in the objective: they keep the motion from
+            swinging between samples.
 
         Returns
         -------

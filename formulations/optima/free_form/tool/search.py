@@ -1,10 +1,10 @@
 """The search for the fastest motion under limits on the tool.
 
-It starts from the fastest motion without them, slowed down as a whole until its tool is slow enough. Then it solves
-the program on finer and finer steps. The program keeps the tool's speed at samples. Where the check finds a larger
-speed on a step, the limit on that step is lowered by the factor found, and the program is solved again from there:
-an exchange that ends after a few rounds. What is left is mended by a last stretch. Every motion is judged by the
-independent check.
+It starts from the fastest motion without them, slowed down as a whole until its tool is slow enough. Then
+it solves the program on finer and finer steps. The program keeps the tool's speed at samples. Where the
+check finds a larger speed on a step, the limit on that step is lowered by the factor found, and the program
+is solved again from there: an exchange that ends after a few rounds. What is left is mended by a last
+stretch. Every motion is judged by the independent check.
 """
 
 from __future__ import annotations
@@ -168,7 +168,7 @@ class ToolSearch:
         return motion, limits
 
     def _offer(self, name: str, motion: Stepped, whole: Trajectory, status: str = "") -> Verdict:
-        """Judge a motion, stretched where that mends it, and keep it if it is the best; gives the first verdict."""
+        """Judge a motion, stretched where that mends it, and keep the best; gives the first verdict."""
         d = self.demands
         first = verdict = check(d.problem, whole, conditions=d.conditions)
         factor = 1.0
