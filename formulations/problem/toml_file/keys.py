@@ -11,8 +11,8 @@ PROBLEM_KEYS: dict[str, str] = {
     "waypoints": "A row per waypoint and a column per joint, in the order of the joints.",
     "limits": "The table `[limits]`; with a robot it lies over the limits of the robot's files.",
     "conditions": "The table `[conditions]`: zones, times, stops, waits, states at the ends, a cycle.",
-    "arm": "A shipped arm, whose kinematics solve the poses, which needs the extra `arms`, or say where the tool "
-    "is beside `waypoints`.",
+    "arm": "A shipped arm: its kinematics solve the poses, which needs the extra `arms`, or say where the "
+    "tool is beside `waypoints`.",
     "pose": "Tables `[[pose]]` in place of waypoints, each solved to the joints nearest to the last one.",
     "length": '`"m"` or `"mm"`: unit of the positions of poses and of `waypoints_file`; m if left out.',
     "near": "Joint positions that the solution of the first pose is nearest to: a list, or a table by joint.",

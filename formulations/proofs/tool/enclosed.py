@@ -23,7 +23,16 @@ class Enclosed:
 
     @staticmethod
     def of(value: Any) -> Enclosed:
-        """Take floats as exact numbers."""
+        """Take floats as exact numbers.
+
+        Parameters
+        ----------
+        value : array_like or Enclosed
+
+        Returns
+        -------
+        Enclosed
+        """
         return value if isinstance(value, Enclosed) else Enclosed(*exact(value))
 
     @property

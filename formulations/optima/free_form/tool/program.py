@@ -50,7 +50,7 @@ _OPTIONS: dict[str, Any] = {
 
 
 @dataclass(frozen=True)
-class Rows:
+class _Rows:
     """Rows of one kind with their bounds."""
 
     symbols: Any
@@ -81,14 +81,14 @@ class ToolProgram:
         """
         self.demands, self.steps, self.second = demands, steps, second
         self.S, self.n = demands.tool_speed.size, demands.problem.dof
-        self.third = np.isfinite(demands.jerk).all(axis=0)
+        self.third: Truths = np.asarray(np.isfinite(demands.jerk).all(axis=0))
         M = self.S * steps
         self.h = casadi.SX.sym("h", M)
         self.q, self.v, self.a = (casadi.SX.sym(name, self.n, M + 1) for name in "qva")
         self.speeds = casadi.SX.sym("speed", M)  # squares of the limits on the steps
         self.x = casadi.vertcat(self.h, *(casadi.vec(part) for part in (self.q, self.v, self.a)))
         self.segment = np.repeat(np.arange(self.S), steps)
-        self.rows: list[Rows] = []
+        self.rows: list[_Rows] = []
         self._dynamics()
         self._limits()
         self._times()
@@ -116,7 +116,7 @@ class ToolProgram:
         sides = [np.broadcast_to(np.asarray(side, float), count).copy() for side in (low, high)]
         kept = np.flatnonzero(np.isfinite(sides[0]) | np.isfinite(sides[1]))
         if len(kept):
-            self.rows.append(Rows(column[kept.tolist()], sides[0][kept], sides[1][kept]))
+            self.rows.append(_Rows(column[kept.tolist()], sides[0][kept], sides[1][kept]))
 
     def _per_step(self, values: Array) -> Array:
         """Values (S, n) of segments as a column over joints and steps, as CasADi orders it."""
@@ -173,7 +173,7 @@ class ToolProgram:
         self._row(middle[bent.tolist()], low, high)
         slack = 0.5 * d.problem.position_slack
         low, high = self._both(d.position, 0) + np.array([[-slack], [slack]])
-        near = self._per_step(self._nearby())
+        near = self._nearby()[self.segment].ravel()
         low, high = np.where(near, low, -np.inf), np.where(near, high, np.inf)
         self._row(self.q[:, :-1] + h * v0 / 3.0, low, high)
         self._row(self.q[:, 1:] - h * v1 / 3.0, low, high)

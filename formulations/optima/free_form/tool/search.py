@@ -22,7 +22,7 @@ from formulations.motion.verdict import Verdict, check
 from formulations.optima.free_form.stage import Stage
 from formulations.optima.free_form.tool.program import ToolProgram
 from formulations.optima.free_form.tool.stepped import Stepped
-from formulations.problem.arrays import Array
+from formulations.problem.arrays import Array, Truths
 from formulations.problem.demands import Demands
 from formulations.problem.errors import UnsupportedProblem
 
@@ -84,8 +84,8 @@ class ToolSearch:
             A joint that moves has no acceleration limit.
         """
         self.demands, self.progress, self.deadline = demands, progress, deadline
-        self.third = np.isfinite(demands.jerk).all(axis=0)
-        limited = self.third | np.isfinite(demands.acceleration).all(axis=(0, 2))
+        self.third: Truths = np.asarray(np.isfinite(demands.jerk).all(axis=0))
+        limited = np.asarray(self.third | np.isfinite(demands.acceleration).all(axis=(0, 2)))
         if not limited.all():
             joint = demands.problem.joint_name(int((~limited).argmax()))
             raise UnsupportedProblem(

@@ -22,7 +22,8 @@ def test_a_hinge_has_the_velocity_limit_s_over_its_lever(lever: float) -> None:
     other = Problem(((0.0,), (1.0,), (0.3,)), {**LIMITS, "velocity": 0.6})
     exact = free_form(other, tolerance=1e-6).seconds
     assert exact * (1.0 - 1e-7) <= mine.seconds <= exact * (1.0 + 2e-3)
-    assert mine.verdict is not None and mine.verdict.feasible
+    assert mine.verdict is not None
+    assert mine.verdict.feasible
     bound = free_form_bound(hinge(lever, Conditions(tool_speed=speed)), upper=mine.seconds)
     chords = 2.0 * np.sin(np.array([0.5, 0.35])) / 0.6  # of the tool's circle, over its speed
     least = tool_least_times(Demands.of(hinge(lever, Conditions(tool_speed=speed))))
@@ -132,4 +133,5 @@ def test_without_a_jerk_limit_the_steps_have_constant_acceleration() -> None:
     found = free_form(problem, tolerance=1e-2)
     jerked = free_form(two_links(Conditions(tool_speed=0.4)), tolerance=1e-2)
     assert found.seconds <= jerked.seconds
-    assert found.verdict is not None and found.verdict.feasible
+    assert found.verdict is not None
+    assert found.verdict.feasible
