@@ -22,6 +22,20 @@ TOOL_SPEED = "tool speed"
 class ToolPeak(Peak):
     """The place where the tool point is fastest in terms of its limit; its joint is -1, as all take part."""
 
+    def unit_in(self, angle: str) -> str:
+        """Say the unit of the value.
+
+        Parameters
+        ----------
+        angle : {"rad", "deg"}
+            Of no matter here.
+
+        Returns
+        -------
+        str
+        """
+        return "m/s"
+
     def __str__(self) -> str:
         return (
             f"{self.quantity} in segment {self.segment + 1} at {self.time:.4f} s: {self.value:.6g} m/s, "
