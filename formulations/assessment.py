@@ -118,6 +118,8 @@ class Assessment:
         }
 
     def _joint(self, joint: int) -> dict[str, Any]:
+        if joint < 0:  # the tool, which all joints move
+            return {}
         names = self.judgement.names
         return {"joint": joint + 1, **({"name": names[joint]} if names else {})}
 

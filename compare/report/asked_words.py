@@ -40,6 +40,8 @@ def _waypoints(problem: Problem, asked: Conditions) -> Iterator[str]:
         yield f"It passes waypoint {k + 1} at {time:g} s."
     for k, window in sorted(asked.windows.items()):
         yield f"It passes waypoint {k + 1} {_between(window)}."
+    for k, radius in sorted(asked.tool_zones.items()):
+        yield f"Its tool passes waypoint {k + 1} within {1e3 * radius:g} mm."
     if asked.total is not None:
         yield f"It takes {asked.total:g} s."
 
@@ -52,6 +54,10 @@ def _segments(problem: Problem, asked: Conditions) -> Iterator[str]:
             if isinf(most)
             else (f"It takes {least:g} to {most:g} s {way}.")
         )
+    if asked.tool_speed is not None:
+        yield f"Its tool moves at {asked.tool_speed:g} m/s at most."
+    for k, speed in sorted(asked.segment_tool_speed.items()):
+        yield f"Its tool moves at {speed:g} m/s at most from waypoint {k + 1} to {k + 2}."
     for k in sorted(asked.segment_limits):
         yield f"Other limits hold from waypoint {k + 1} to {k + 2}."
 

@@ -220,10 +220,14 @@ def _jump_row(found: Assessment, jump: Jump, where: str) -> list[str]:
 
 def _unit(found: Assessment, quantity: str, joint: int) -> tuple[str, float]:
     """The unit in which a quantity of a joint is shown, and SI units per unit."""
+    if joint < 0:  # the tool, which all joints move
+        return "m/s", 1.0
     own, angle = found.problem.units[joint], found.problem.display_unit
     return shown_unit(own, angle, QUANTITIES.index(quantity)), float(factors([own], angle)[0])
 
 
 def _joint(found: Assessment, joint: int) -> str:
+    if joint < 0:
+        return "tool"
     names = found.judgement.names
     return f"{joint + 1} {names[joint]}" if names else f"{joint + 1}"

@@ -86,10 +86,11 @@ def what_is_wrong(given: Assessment) -> str:
     found = given.judgement
     parts = []
     if found.violations:
-        joints = len({peak.joint for peak in found.violations})
+        joints = len({peak.joint for peak in found.violations} - {-1})  # -1 is the tool
         most = max(peak.factor for peak in found.violations)
         limits = _count(len(found.violations), "broken limit")
-        parts.append(f"{limits} of {_count(joints, 'joint')}, up to {most:.4g} times the limit")
+        whose = f" of {_count(joints, 'joint')}" if joints else ""
+        parts.append(f"{limits}{whose}, up to {most:.4g} times the limit")
     if found.jumps:
         parts.append(f"{' and '.join(dict.fromkeys(jump.quantity for jump in found.jumps))} jumps")
     if found.not_at_rest:

@@ -12,6 +12,7 @@ import numpy as np
 
 from formulations.arms.dh_table import DHTable
 from formulations.arms.kinematics import Chain
+from formulations.kinematics.link_chain import LinkChain
 from formulations.problem.arrays import Array
 from formulations.problem.errors import InputError
 
@@ -53,6 +54,11 @@ class Arm:
     def dof(self) -> int:
         """Number of joints."""
         return len(self.chain.d)
+
+    @property
+    def tool(self) -> LinkChain:
+        """The chain from base to flange, as a problem takes it."""
+        return self.chain.links
 
 
 @cache

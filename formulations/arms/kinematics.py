@@ -15,10 +15,12 @@ Craig: Introduction to Robotics: Mechanics and Control, sec. 3.5-3.6.
 from __future__ import annotations
 
 from dataclasses import dataclass, field
+from functools import cached_property
 
 import numpy as np
 from numpy.typing import ArrayLike
 
+from formulations.kinematics.link_chain import LinkChain, Step
 from formulations.problem.arrays import Array
 
 
@@ -65,6 +67,24 @@ class Chain:
         base = np.array([[1, 0, 0, a[0]], [0, c, -s, 0], [0, s, c, 0], [0, 0, 0, 1]])
         return cls(d, np.append(a[1:], 0.0), np.append(alpha[1:], 0.0), offset, sign, base)
 
+    @cached_property
+    def links(self) -> LinkChain:
+        """The same chain as a product of fixed poses and joint motions, as those of URDF robots are."""
+        after = self.link(np.zeros(len(self.d)))
+        steps = tuple(
+            Step(
+                before=self.base if i == 0 else np.eye(4),
+                after=after[i],
+                axis=np.array([0.0, 0.0, 1.0]),
+                prismatic=False,
+                variable=i,
+                factor=float(self.sign[i]),
+                offset=float(self.offset[i]),
+            )
+            for i in range(len(self.d))
+        )
+        return LinkChain(tuple(f"joint {i + 1}" for i in range(len(steps))), steps, np.eye(4))
+
     def theta(self, joints: ArrayLike) -> Array:
         """Convert joint positions to DH angles.
 
@@ -93,11 +113,29 @@ class Chain:
         Array, shape (..., dof + 1, 4, 4)
             Homogeneous transforms, lengths in m.
         """
-        theta = self.theta(joints)
+        link = self.link(self.theta(joints))
+        frames = [np.broadcast_to(self.base, link[..., 0, :, :].shape)]
+        for i in range(link.shape[-3]):
+            frames.append(frames[-1] @ link[..., i, :, :])
+        return np.stack(frames, axis=-3)
+
+    def link(self, theta: Array) -> Array:
+        """Compute the transform of each link (Wang 2025, eq. 1).
+
+        Parameters
+        ----------
+        theta : Array, shape (..., dof)
+            DH angles [rad].
+
+        Returns
+        -------
+        Array, shape (..., dof, 4, 4)
+            Homogeneous transforms, lengths in m.
+        """
         c, s = np.cos(theta), np.sin(theta)
         ca, sa = np.cos(self.alpha), np.sin(self.alpha)
         link = np.zeros((*theta.shape, 4, 4))
-        rows = (  # Wang 2025, eq. 1
+        rows = (
             (c, -ca * s, sa * s, self.a * c),
             (s, ca * c, -sa * c, self.a * s),
             (0.0, sa, ca, self.d),
@@ -106,10 +144,7 @@ class Chain:
         for i, row in enumerate(rows):
             for j, value in enumerate(row):
                 link[..., i, j] = value
-        frames = [np.broadcast_to(self.base, link[..., 0, :, :].shape)]
-        for i in range(theta.shape[-1]):
-            frames.append(frames[-1] @ link[..., i, :, :])
-        return np.stack(frames, axis=-3)
+        return link
 
     def forward(self, joints: ArrayLike) -> Array:
         """Compute the pose of the tool (Wang 2025, eq. 2).

@@ -15,6 +15,7 @@ from formulations.motion.files.motion_points import MotionPoints
 from formulations.motion.passages import passages
 from formulations.motion.peaks import QUANTITIES, Peak, peaks_of_joints
 from formulations.motion.smoothness import TOLERANCE, Jump, jumps, motion_at
+from formulations.motion.tool_check import tool_peaks
 from formulations.motion.trajectory import Trajectory
 from formulations.motion.unkept import TIME_TOLERANCE, from_arrival, moving_at, unkept
 from formulations.problem.arrays import Array
@@ -236,7 +237,7 @@ def judge(
     trajectory = Trajectory(trajectory.durations, trajectory.coefficients, passed.times)
     trajectory = from_arrival(demands, trajectory, tolerance)
     peaks = sorted(
-        peaks_of_joints(demands, trajectory),
+        [*peaks_of_joints(demands, trajectory), *tool_peaks(demands, trajectory)],
         key=lambda peak: (peak.factor > 1.0, peak.urgency),
         reverse=True,
     )
@@ -261,7 +262,8 @@ def judge(
         violations=tuple(
             peak
             for peak in peaks
-            if peak.factor > 1.0 + over[QUANTITIES.index(peak.quantity)][peak.joint]
+            if peak.factor
+            > 1.0 + (TOLERANCE if peak.joint < 0 else over[QUANTITIES.index(peak.quantity)][peak.joint])
         ),
         jumps=tuple(jumps(problem, trajectory, smooth)),
         not_at_rest=tuple(moving),

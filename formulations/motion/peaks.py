@@ -54,13 +54,27 @@ class Peak:
     angle: str = "rad"
 
     def __str__(self) -> str:
-        unit = shown_unit(self.unit, self.angle, QUANTITIES.index(self.quantity))
+        unit = self.unit_in(self.angle)
         scale = float(factors([self.unit], self.angle)[0])
         return (
             f"{self.quantity} of joint {self.name or self.joint + 1} in segment {self.segment + 1} at "
             f"{self.time:.4f} s: {self.value / scale:.6g} {unit}, limit {self.limit / scale:.6g} {unit}, "
             f"factor {self.factor:.6g}"
         )
+
+    def unit_in(self, angle: str) -> str:
+        """Say the unit of the value.
+
+        Parameters
+        ----------
+        angle : {"rad", "deg"}
+            The unit of angles.
+
+        Returns
+        -------
+        str
+        """
+        return shown_unit(self.unit, angle, QUANTITIES.index(self.quantity))
 
     @property
     def urgency(self) -> float:

@@ -19,6 +19,7 @@ from formulations.motion.smoothness import (
     rounding_of_positions,
 )
 from formulations.motion.timing import passage_faults, segment_faults, wait_faults
+from formulations.motion.tool_check import tool_faults, tool_peaks
 from formulations.motion.trajectory import Trajectory
 from formulations.problem.arrays import Array
 from formulations.problem.conditions import Conditions
@@ -123,7 +124,9 @@ def check(
             *segment_faults(demands, trajectory),
             *wait_faults(demands, trajectory, rounding_of_positions(problem)),
         ]
-    peaks = worst_of_quantities(peaks_of_joints(demands, trajectory))
+    faults += tool_faults(demands, trajectory)
+    found = [*peaks_of_joints(demands, trajectory), *tool_peaks(demands, trajectory)]
+    peaks = worst_of_quantities(found)
     faults += [f"over the limit: {peak}" for peak in peaks if peak.factor > 1.0 + TOLERANCE]
     stretch = max((peak.stretch for peak in peaks if peak.quantity != "position"), default=0.0)
     return Verdict(trajectory.seconds, not faults, stretch, tuple(peaks), tuple(faults))

@@ -31,10 +31,10 @@ def require_fitting(asked: Conditions, problem: Problem) -> None:
         In one line with key and value.
     """
     last = problem.n_segments
-    for key in ("tolerance", "passage", "windows", "stops", "waits"):
+    for key in ("tolerance", "passage", "windows", "stops", "waits", "tool_zones"):
         for waypoint in getattr(asked, key):
             _require_index(f"conditions.{key}: waypoint", waypoint, last)
-    for key in ("segment_times", "segment_limits"):
+    for key in ("segment_times", "segment_limits", "segment_tool_speed"):
         for segment in getattr(asked, key):
             _require_index(f"conditions.{key}: segment", segment, last - 1)
     for segment, limits in asked.segment_limits.items():
@@ -43,6 +43,7 @@ def require_fitting(asked: Conditions, problem: Problem) -> None:
         _require_zone(problem, waypoint, zone)
     _require_times(asked, problem)
     _require_ends(asked, problem)
+    _require_tool(asked, problem)
 
 
 def _require_index(what: str, index: int, last: int) -> None:
@@ -176,6 +177,30 @@ def _require_state(key: str, found: Array, intervals: Array, order: int, problem
             )
 
 
+def _require_tool(asked: Conditions, problem: Problem) -> None:
+    """Refuse limits on the tool that are no numbers, or of a problem without kinematics."""
+    given = [] if asked.tool_speed is None else [("tool_speed", asked.tool_speed, "m/s")]
+    given += [
+        (f"segment_tool_speed: segment {k}", speed, "m/s")
+        for k, speed in asked.segment_tool_speed.items()
+    ]
+    given += [(f"tool_zones: waypoint {k}", radius, "m") for k, radius in asked.tool_zones.items()]
+    for where, value, unit in given:
+        number = isinstance(value, int | float) and not isinstance(value, bool)
+        if not (number and np.isfinite(value) and value > 0.0):
+            raise InputError(f"conditions.{where}: {value!r:.50} is no positive number of {unit}")
+        if problem.tool is None:
+            raise InputError(
+                f"conditions.{where}: {value:g} {unit} needs to know where the tool is: give the problem "
+                "a robot or an arm"
+            )
+    ends = {0, problem.n_segments} & set(asked.tool_zones)
+    if asked.cyclic and ends and len({asked.tool_zones.get(k) for k in (0, problem.n_segments)}) > 1:
+        raise InputError(
+            "conditions.cyclic: the first and the last waypoint are one: give both one radius in tool_zones"
+        )
+
+
 def _require_cycle(asked: Conditions, problem: Problem) -> None:
     for key in ("start_velocity", "end_velocity", "start_acceleration", "end_acceleration"):
         if getattr(asked, key) is not None:
@@ -188,7 +213,8 @@ def _require_cycle(asked: Conditions, problem: Problem) -> None:
             f"{problem.amount(ends[1, joint], joint)}, not at its start, "
             f"{problem.amount(ends[0, joint], joint)}"
         )
-    first, end = (asked.tolerance.get(k, np.zeros(problem.dof)) for k in (0, problem.n_segments))
+    boxes = asked.boxes(problem.dof)
+    first, end = (boxes.get(k, np.zeros(problem.dof)) for k in (0, problem.n_segments))
     if not np.array_equal(first, end):
         raise InputError(
             "conditions.cyclic: the first and the last waypoint are one: give both one tolerance"

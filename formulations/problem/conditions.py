@@ -18,6 +18,8 @@ if TYPE_CHECKING:
 EndState: TypeAlias = "Array | Literal['free'] | None"
 Interval: TypeAlias = tuple[float, float]
 
+TOOL_ZONE_TOLERANCE = 0.1  # rad, or m: of a joint at a zone of the tool where no tolerance is given
+
 
 @dataclass(frozen=True, eq=False)
 class Conditions:
@@ -50,6 +52,13 @@ class Conditions:
         its start, which are free.
     segment_limits : mapping of int to Limits
         Limits that replace the problem's on a segment.
+    tool_speed : float, optional
+        Greatest speed of the tool point along the whole motion [m/s].
+    segment_tool_speed : mapping of int to float
+        The greatest speed of the tool point on a segment, in place of that of the whole motion [m/s].
+    tool_zones : mapping of int to float
+        Radius of the ball around the tool point of a waypoint in which the tool passes it [m]. The joints
+        pass it within ``tolerance`` too; where none is given there, within ``TOOL_ZONE_TOLERANCE``.
 
     Examples
     --------
@@ -73,6 +82,9 @@ class Conditions:
     end_acceleration: EndState = None
     cyclic: bool = False
     segment_limits: Mapping[int, Limits] = field(default_factory=dict)
+    tool_speed: float | None = None
+    segment_tool_speed: Mapping[int, float] = field(default_factory=dict)
+    tool_zones: Mapping[int, float] = field(default_factory=dict)
 
     @property
     def asked(self) -> tuple[str, ...]:
@@ -81,7 +93,7 @@ class Conditions:
         for one in fields(self):
             value = getattr(self, one.name)
             given = value is not None if one.name.startswith(("start_", "end_")) else bool(value)
-            if given or (one.name == "total" and value is not None):
+            if given or (one.name in ("total", "tool_speed") and value is not None):
                 found.append(one.name)
         return tuple(found)
 
@@ -96,6 +108,64 @@ class Conditions:
         return all(_same(getattr(self, one.name), getattr(other, one.name)) for one in fields(self))
 
     __hash__ = None  # type: ignore[assignment]  # holds arrays
+
+    @property
+    def on_tool(self) -> bool:
+        """Whether the tool point is limited in speed or place."""
+        return self.tool_speed is not None or bool(self.segment_tool_speed or self.tool_zones)
+
+    def boxes(self, dof: int) -> dict[int, Array]:
+        """How far each joint may pass a waypoint, those with a zone of the tool included.
+
+        Parameters
+        ----------
+        dof : int
+            Number of joints.
+
+        Returns
+        -------
+        dict of int to Array, shape (dof,)
+            [rad, or m].
+        """
+        around = {k: np.full(dof, TOOL_ZONE_TOLERANCE) for k in self.tool_zones}
+        return {**around, **{k: np.asarray(zone) for k, zone in self.tolerance.items()}}
+
+    def without_tool(self, dof: int) -> Conditions:
+        """All but the limits on the tool, whose zones remain as boxes of the joints: a relaxation.
+
+        Parameters
+        ----------
+        dof : int
+            Number of joints.
+
+        Returns
+        -------
+        Conditions
+        """
+        return replace(
+            self,
+            tolerance=self.boxes(dof),
+            tool_speed=None,
+            segment_tool_speed={},
+            tool_zones={},
+        )
+
+    def tool_speeds(self, n_segments: int) -> Array:
+        """Return the greatest speed of the tool point on each segment.
+
+        Parameters
+        ----------
+        n_segments : int
+
+        Returns
+        -------
+        Array, shape (n_segments,)
+            [m/s]; infinite where none is given.
+        """
+        found = np.full(n_segments, np.inf if self.tool_speed is None else self.tool_speed)
+        for k, speed in self.segment_tool_speed.items():
+            found[k] = speed
+        return found
 
     def without_total(self, problem: Problem) -> Conditions:
         """Drop what fixes the total time, so that the fastest motion under the others can be asked for.
@@ -128,7 +198,7 @@ class Conditions:
         require_fitting(self, problem)
 
     def of_joint(self, joint: int) -> Conditions:
-        """Return the conditions on one joint alone.
+        """Return the conditions on one joint alone; those on the tool tie joints together and are left out.
 
         Parameters
         ----------
@@ -139,14 +209,15 @@ class Conditions:
         -------
         Conditions
         """
+        whole = self.without_tool(joint + 1)
         one = slice(joint, joint + 1)
 
         def mine(value: EndState) -> EndState:
             return value[one] if isinstance(value, np.ndarray) else value
 
         return replace(
-            self,
-            tolerance={k: np.asarray(zone)[one] for k, zone in self.tolerance.items()},
+            whole,
+            tolerance={k: zone[one] for k, zone in whole.tolerance.items()},
             start_velocity=mine(self.start_velocity),
             end_velocity=mine(self.end_velocity),
             start_acceleration=mine(self.start_acceleration),

@@ -40,6 +40,10 @@ class Demands:
         Earliest and latest time of arrival at each waypoint [s].
     cyclic : bool
         Whether positions, velocities and accelerations are the same at both ends.
+    tool_speed : Array, shape (n_segments,)
+        Greatest speed of the tool point on each segment [m/s]; infinite where none is given.
+    tool_radius : Array, shape (n_segments + 1,)
+        How far the tool point may pass that of each waypoint [m]; infinite where no zone of the tool is given.
     """
 
     problem: Problem
@@ -56,6 +60,13 @@ class Demands:
     durations: Array
     passages: Array
     cyclic: bool
+    tool_speed: Array
+    tool_radius: Array
+
+    @property
+    def on_tool(self) -> bool:
+        """Whether the tool point is limited in speed or place."""
+        return bool(np.isfinite(self.tool_speed).any() or np.isfinite(self.tool_radius).any())
 
     @property
     def plain(self) -> bool:
@@ -85,8 +96,10 @@ class Demands:
         asked.validate(problem)
         n, dof = problem.n_segments, problem.dof
         zones = np.zeros((n + 1, dof))
-        for k, zone in asked.tolerance.items():
+        for k, zone in asked.boxes(dof).items():
             zones[k] = zone
+        radius = np.full(n + 1, np.inf)
+        radius[list(asked.tool_zones)] = list(asked.tool_zones.values())
         limits = asked.limits(problem)
         intervals = [one.intervals for one in limits]
         velocity, acceleration = (np.stack([pair[i] for pair in intervals]) for i in (0, 1))
@@ -120,6 +133,8 @@ class Demands:
             _intervals(n, asked.segment_times),
             _passages(problem, asked),
             asked.cyclic,
+            asked.tool_speeds(n),
+            radius,
         )
 
 

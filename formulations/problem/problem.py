@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Iterable, Mapping
 from dataclasses import dataclass, field, replace
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
 from numpy.typing import ArrayLike
@@ -23,11 +23,12 @@ from formulations.problem.joint_words import (
 )
 from formulations.problem.limits import Limits, limits_of, numbers
 from formulations.problem.toml_file.toml_values import read_choice, read_text
+from formulations.problem.waypoint_checks import POSITION_TOLERANCE, require_inside
+
+if TYPE_CHECKING:
+    from formulations.kinematics.link_chain import LinkChain
 
 __all__ = ["POSITION_SLACK", "POSITION_TOLERANCE", "Limits", "Problem"]
-
-POSITION_TOLERANCE = 1e-4  # rad a printed waypoint may lie outside its limit: rounding of tables
-LARGEST_WAYPOINT = 1e6  # rad or m; beyond, ten digits after the point are no longer kept
 
 # rad per (1 + largest |waypoint|) by which a motion may leave the position limits. It covers rounding, most of
 # all that of the optimisers. The check, the swarms' objective, the optimum and the bound share this number.
@@ -61,6 +62,8 @@ class Problem:
         Unit of the angles that are given.
     conditions : Conditions, optional
         What is asked for beyond: zones, times, stops, states at the ends, limits of segments [rad, s].
+    tool : LinkChain, optional
+        From the base to the tool point, ``Robot.chain`` or ``Arm.tool``; needed for conditions on the tool.
 
     Attributes
     ----------
@@ -70,6 +73,7 @@ class Problem:
     name, title, source, family, display_unit : str
     names, units : tuple of str
     conditions : Conditions
+    tool : LinkChain or None
 
     Raises
     ------
@@ -93,6 +97,7 @@ class Problem:
     names: tuple[str, ...]
     units: tuple[str, ...]
     conditions: Conditions
+    tool: LinkChain | None
 
     def __init__(
         self,
@@ -108,6 +113,7 @@ class Problem:
         units: Iterable[str] = (),
         unit: str = "rad",
         conditions: Conditions | None = None,
+        tool: LinkChain | None = None,
     ) -> None:
         points = numbers("waypoints", waypoints)
         if points.ndim != 2 or points.shape[1] < 1:
@@ -136,9 +142,12 @@ class Problem:
         values["limits"] = limits_of(limits, dof, angle, own, values["names"])
         values["waypoints"] = points * factors(own, angle)
         values["conditions"] = conditions or Conditions()
+        values["tool"] = tool
+        if tool is not None and tool.dof != dof:
+            raise InputError(f"tool: a chain of {tool.dof} joints for waypoints of {dof}")
         for key, value in values.items():
             object.__setattr__(self, key, value)
-        self._require_inside(points, angle)
+        require_inside(self, points, angle)
         self.conditions.validate(self)
 
     @staticmethod
@@ -166,39 +175,12 @@ class Problem:
         """
         return Problem(waypoints, limits, **others)
 
-    def _require_inside(self, given: Array, angle: str) -> None:
-        """Refuse waypoints that are not finite or lie outside; given: as written, angles in ``angle``."""
-        points, limits = self.waypoints, self.limits
-
-        def at(row: Any, joint: Any) -> str:
-            return f"waypoints: row {row + 1}, {self.joint_name(joint)}: {given[row, joint]:.6g}"
-
-        if not np.isfinite(points).all():
-            row, joint = np.argwhere(~np.isfinite(points))[0]
-            raise InputError(f"{at(row, joint)} is not finite")
-        if (np.abs(points) > LARGEST_WAYPOINT).any():
-            row, joint = np.argwhere(np.abs(points) > LARGEST_WAYPOINT)[0]
-            unit, most = self.units[joint], LARGEST_WAYPOINT / factors(self.units, angle)[joint]
-            raise InputError(
-                f"{at(row, joint)} {shown_unit(unit, angle)} is beyond {most:.3g}, the largest allowed"
-            )
-        outside = np.maximum(limits.position[:, 0] - points, points - limits.position[:, 1])
-        if not (outside > POSITION_TOLERANCE).any():
-            return
-        row, joint = np.unravel_index(int(outside.argmax()), outside.shape)
-        low, high = limits.position[joint] / factors(self.units, angle)[joint]
-        unit = shown_unit(self.units[joint], angle)
-        turned = points * factors(self.units, "deg")
-        fits = ((turned >= limits.position[:, 0]) & (turned <= limits.position[:, 1])).all()
-        hint = '; in degrees all would be inside: unit = "deg"?' if fits and unit == "rad" else ""
-        raise InputError(
-            f"{at(row, joint)} {unit} lies outside limits.position [{low:.6g}, {high:.6g}] {unit}{hint}"
-        )
-
     def __eq__(self, other: object) -> bool:
         if not isinstance(other, Problem):
             return NotImplemented
         words = ("name", "family", "title", "source", "names", "units", "limits", "conditions")
+        if self.conditions.on_tool and self.tool != other.tool:
+            return False
         return np.array_equal(self.waypoints, other.waypoints) and all(
             getattr(self, key) == getattr(other, key) for key in words
         )
@@ -303,6 +285,7 @@ class Problem:
             units=self.units[one],
             limits=self.limits.of_joint(index),
             conditions=self.conditions.of_joint(index),
+            tool=None,
         )
 
     @property

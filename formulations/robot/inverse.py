@@ -17,10 +17,10 @@ from typing import Any
 import numpy as np
 from scipy.spatial.transform import Rotation
 
+from formulations.kinematics.link_chain import LinkChain
 from formulations.problem.arrays import Array
 from formulations.problem.errors import InputError, OutOfReach
 from formulations.robot.joints import UNLIMITED, Joint, JointKind
-from formulations.robot.kinematics import LinkChain
 from formulations.robot.text.files import shown
 
 REACHED = 1e-6  # m that a solution may miss a position by

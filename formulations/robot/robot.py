@@ -15,12 +15,13 @@ from typing import Any
 import numpy as np
 from numpy.typing import ArrayLike
 
+from formulations.kinematics.link_chain import LinkChain
 from formulations.problem.arrays import Array
 from formulations.problem.errors import InputError
 from formulations.problem.problem import Limits
 from formulations.robot.inverse import joints_of_poses
 from formulations.robot.joints import QUANTITIES, Joint, Mimic, missing_limits
-from formulations.robot.kinematics import LinkChain, chain_between
+from formulations.robot.kinematics import chain_between
 from formulations.robot.text.files import known_names, shown
 from formulations.robot.urdf import Urdf
 

@@ -72,6 +72,16 @@ class AskedConditions:
         tuple[str, ...],
         _several("K=S", "Stand still for S seconds at waypoint K, after arriving there."),
     ] = ()
+    tool_speed: Annotated[
+        float | None,
+        Parameter(
+            metavar="S", help="The tool moves at most at S m/s; the file names a robot or an arm."
+        ),
+    ] = None
+    tool_zone: Annotated[
+        tuple[str, ...],
+        _several("K=R", "The tool passes waypoint K within R metres of its place there."),
+    ] = ()
     cyclic: Annotated[
         bool,
         Parameter(
@@ -147,6 +157,11 @@ def conditions_of(asked: AskedConditions | None, problem: Problem) -> Conditions
         stops=own.stops | set(asked.stop),
         total=own.total if asked.total is None else asked.total,
         cyclic=own.cyclic or asked.cyclic,
+        tool_speed=own.tool_speed if asked.tool_speed is None else asked.tool_speed,
+        tool_zones={
+            **own.tool_zones,
+            **_numbered("--tool-zone", asked.tool_zone, "K=R, such as 2=0.01", float),
+        },
         **states,
     )
     found.validate(problem)

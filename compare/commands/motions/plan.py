@@ -19,10 +19,8 @@ from formulations import (
     Problem,
 )
 from formulations import plan as find_motion
-from formulations.motion.verdict import QUANTITIES
 from formulations.optima.at_rate.export import check_export, export_motion
 from formulations.optima.free_form import SearchStatus
-from formulations.problem.joint_words import shown_unit
 from formulations.problem.toml_file.plain_conditions import asked_as_json
 from formulations.proofs.status import BoundStatus
 
@@ -158,13 +156,13 @@ def as_json(problem: Problem, found: FreeForm, bound: FreeFormBound | None = Non
         "peaks": [
             {
                 "quantity": peak.quantity,
-                "joint": peak.joint + 1,
+                "joint": None if peak.joint < 0 else peak.joint + 1,
                 "name": peak.name or None,
                 "segment": peak.segment + 1,
                 "time": peak.time,
                 "value": peak.value,
                 "limit": peak.limit,
-                "unit": shown_unit(peak.unit, "rad", QUANTITIES.index(peak.quantity)),
+                "unit": peak.unit_in("rad"),
                 "factor": peak.factor,
             }
             for peak in (() if found.verdict is None else found.verdict.peaks)

@@ -5,6 +5,7 @@ from __future__ import annotations
 import time
 from collections.abc import Callable
 from dataclasses import dataclass, replace
+from functools import partial
 from typing import Literal
 
 import casadi
@@ -25,6 +26,7 @@ from formulations.optima.free_form.nlp.assembly import RAMP
 from formulations.optima.free_form.nlp.conditioned import ConditionedProblem
 from formulations.optima.free_form.sensitivity import Sensitivity
 from formulations.optima.free_form.stage import Stage, VerifiedMotion
+from formulations.optima.free_form.tool.answer import under_tool
 from formulations.optima.free_form.vanishing import searched
 from formulations.optima.free_form.why_not import named, why_not
 from formulations.problem.arrays import Array
@@ -228,6 +230,15 @@ def free_form(
     if solver == "ipopt" and not casadi.has_nlpsol("ipopt"):
         solver = "highs"
         notes.append("this CasADi has no IPOPT: solved by sequential linear programs")
+    if asked.on_tool:
+        return under_tool(
+            problem,
+            asked,
+            partial(free_form, mesh=mesh, tolerance=tolerance, solver=solver, stop=stop),
+            tolerance,
+            deadline,
+            progress,
+        )
     task = ConditionedProblem(problem, asked)
     if not task.n_segments:
         return _nothing_moves(problem, asked, begun)

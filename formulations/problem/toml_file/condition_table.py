@@ -68,6 +68,8 @@ def conditions_of_table(
     }
     if "total" in table:
         found["total"] = read_number("conditions.total", table["total"])
+    if "tool_speed" in table:
+        found["tool_speed"] = read_number("conditions.tool_speed", table["tool_speed"])
     for order, quantity in ((1, "velocity"), (2, "acceleration")):
         for key in (f"start_{quantity}", f"end_{quantity}"):
             found[key] = joints.state(f"conditions.{key}", table.get(key), order)
@@ -160,7 +162,7 @@ def _by_number(
 
 def _add_waypoints(found: dict[str, Any], rows: dict[int, dict[str, Any]], joints: _Joints) -> None:
     """Lay what is asked for at single waypoints over what is asked for at all."""
-    passage, windows, waits, stops = {}, {}, {}, set(found["stops"])
+    passage, windows, waits, balls, stops = {}, {}, {}, {}, set(found["stops"])
     for index, row in rows.items():
         where = f"conditions.waypoint {index}"
         if "tolerance" in row:
@@ -175,11 +177,14 @@ def _add_waypoints(found: dict[str, Any], rows: dict[int, dict[str, Any]], joint
             waits[index] = read_number(f"{where}.wait", row["wait"])
         if "stop" in row and read_flag(f"{where}.stop", row["stop"]):
             stops.add(index)
+        if "tool_radius" in row:
+            balls[index] = read_number(f"{where}.tool_radius", row["tool_radius"])
     found |= {"passage": passage, "windows": windows, "waits": waits, "stops": frozenset(stops)}
+    found["tool_zones"] = balls
 
 
 def _add_segments(found: dict[str, Any], rows: dict[int, dict[str, Any]], joints: _Joints) -> None:
-    times, limits = {}, {}
+    times, limits, speeds = {}, {}, {}
     for index, row in rows.items():
         where = f"conditions.segment {index}"
         if "time" in row and "least_time" in row:
@@ -190,7 +195,9 @@ def _add_segments(found: dict[str, Any], rows: dict[int, dict[str, Any]], joints
             )
         if "least_time" in row:
             times[index] = read_number(f"{where}.least_time", row["least_time"]), math.inf
+        if "tool_speed" in row:
+            speeds[index] = read_number(f"{where}.tool_speed", row["tool_speed"])
         if "limits" in row:
             key = f"{where}.limits"
             limits[index] = limits_over(key, row["limits"], joints.unit, joints.limits, joints.names)
-    found |= {"segment_times": times, "segment_limits": limits}
+    found |= {"segment_times": times, "segment_limits": limits, "segment_tool_speed": speeds}

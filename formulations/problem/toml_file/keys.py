@@ -11,7 +11,8 @@ PROBLEM_KEYS: dict[str, str] = {
     "waypoints": "A row per waypoint and a column per joint, in the order of the joints.",
     "limits": "The table `[limits]`; with a robot it lies over the limits of the robot's files.",
     "conditions": "The table `[conditions]`: zones, times, stops, waits, states at the ends, a cycle.",
-    "arm": "A shipped arm, whose kinematics solve the poses; needs the extra `arms`.",
+    "arm": "A shipped arm: its kinematics solve the poses, which needs the extra `arms`, or say where the "
+    "tool is beside `waypoints`.",
     "pose": "Tables `[[pose]]` in place of waypoints, each solved to the joints nearest to the last one.",
     "length": '`"m"` or `"mm"`: unit of the positions of poses and of `waypoints_file`; m if left out.',
     "near": "Joint positions that the solution of the first pose is nearest to: a list, or a table by joint.",
@@ -59,6 +60,7 @@ CONDITION_KEYS: dict[str, str] = {
     "end_velocity": "Velocity at the end, in the same forms.",
     "start_acceleration": "Acceleration at the start [unit/s^2], in the same forms; 0 if left out.",
     "end_acceleration": "Acceleration at the end, in the same forms.",
+    "tool_speed": "Greatest speed of the tool point along the whole motion [m/s]; needs `robot` or `arm`.",
     "waypoint": "Tables `[[conditions.waypoint]]`, each about one waypoint.",
     "segment": "Tables `[[conditions.segment]]`, each about the segment between a waypoint and the next one.",
 }
@@ -71,6 +73,8 @@ WAYPOINT_KEYS: dict[str, str] = {
     "window": "Earliest and latest time at which it is passed [s]; the latest may be `inf`.",
     "wait": "How long the motion stands still there after it has arrived [s].",
     "stop": "`true`: the motion stands still there.",
+    "tool_radius": "Ball around the tool point of this waypoint in which the tool passes it [m]; each joint "
+    "stays within `tolerance` too, or within 0.1 rad or m where none is given here.",
 }
 """Keys of a table ``[[conditions.waypoint]]``."""
 
@@ -79,6 +83,7 @@ SEGMENT_KEYS: dict[str, str] = {
     "time": "Least and greatest time [s] between leaving this waypoint and arriving at the next one; the "
     "greatest may be `inf`.",
     "least_time": "The least time alone [s].",
+    "tool_speed": "Greatest speed of the tool point on this segment [m/s].",
     "limits": "Limits on this segment, with the keys of `[limits]`; what is left out stays as it is, and `inf` "
     "takes a limit of position away.",
 }

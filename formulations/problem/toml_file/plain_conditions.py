@@ -44,6 +44,8 @@ def tables_of_conditions(problem: Problem, unit: str = "rad") -> dict[str, Any]:
         found["cyclic"] = True
     if asked.total is not None:
         found["total"] = float(asked.total)
+    if asked.tool_speed is not None:
+        found["tool_speed"] = float(asked.tool_speed)
     for key in ("start_velocity", "end_velocity", "start_acceleration", "end_acceleration"):
         if getattr(asked, key) is not None:
             found[key] = _state(getattr(asked, key), scales)
@@ -52,11 +54,13 @@ def tables_of_conditions(problem: Problem, unit: str = "rad") -> dict[str, Any]:
         "pass": {k: float(time) for k, time in asked.passage.items()},
         "window": {k: _interval(given) for k, given in asked.windows.items()},
         "wait": {k: float(time) for k, time in asked.waits.items()},
+        "tool_radius": {k: float(radius) for k, radius in asked.tool_zones.items()},
     }
     found |= _numbered("waypoint", "at", rows)
     times = {k: _interval(given) for k, given in asked.segment_times.items()}
     limits = {k: table_of_limits(given, unit) for k, given in asked.segment_limits.items()}
-    return found | _numbered("segment", "from", {"time": times, "limits": limits})
+    speeds = {k: float(speed) for k, speed in asked.segment_tool_speed.items()}
+    return found | _numbered("segment", "from", {"time": times, "tool_speed": speeds, "limits": limits})
 
 
 def table_of_limits(limits: Limits, unit: str = "rad") -> dict[str, Any]:

@@ -41,6 +41,7 @@ from formulations.problem.toml_file.toml_values import (
 from formulations.robot.text.files import decode, read_bytes
 
 if TYPE_CHECKING:
+    from formulations.kinematics.link_chain import LinkChain
     from formulations.robot import Robot
 
 CASES: tuple[str, ...] = tuple(
@@ -191,12 +192,26 @@ def _problem(data: dict[str, Any], folder: Path) -> Problem:
         units=units,
         unit=angle,
         conditions=conditions,
+        tool=_tool(data, robot, dof),
     )
     if family is not None:
         reason = FAMILIES[family].refusal(problem.n_segments)
         if reason is not None:
             raise UnsupportedProblem(f"family: {reason}")
     return problem
+
+
+def _tool(data: dict[str, Any], robot: Robot | None, dof: int) -> LinkChain | None:
+    """The chain from base to tool of the robot or arm that the file names; None where there is none."""
+    if robot is not None and robot.urdf is not None:
+        try:
+            return robot.chain
+        except InputError:  # other joints move the tool too: no condition on it can be asked for
+            return None
+    arm = load_arm(read_text("arm", data["arm"])) if "arm" in data else None
+    if arm is not None and arm.dof != dof:
+        raise InputError(f"arm: {arm.name} has {arm.dof} joints, the waypoints {dof}")
+    return None if arm is None else arm.tool
 
 
 def _robot(data: dict[str, Any], folder: Path) -> Robot | None:
@@ -222,6 +237,8 @@ def _waypoints(
         "pose" if robot is not None else "arm"
     )  # a robot's own kinematics, or those of a shipped arm
     given = [key for key in ("waypoints", "waypoints_file", posed) if key in data]
+    if "arm" in given[1:] and not set(POSED[1:]) & set(data):
+        given.remove("arm")  # beside waypoints it says where the tool is
     if not given:
         raise InputError("waypoints: missing")
     if len(given) > 1:

@@ -8,6 +8,7 @@ from typing import Any
 
 import numpy as np
 
+from formulations.arms import ARMS, load_arm
 from formulations.problem.errors import InputError
 from formulations.problem.files import write_text
 from formulations.problem.problem import Problem
@@ -92,6 +93,8 @@ def _text(problem: Problem, unit: str) -> str:
         [np.pi / 180.0 if unit == "deg" and one == "rad" else 1.0 for one in problem.units]
     )
     lines = [f"{key} = {_toml(getattr(problem, key))}" for key in ("name", "title", "source")]
+    if problem.conditions.on_tool:
+        lines.append(f"arm = {_toml(_arm_of(problem))}")
     lines.append(f"unit = {_toml(unit)}")
     if problem.family != Problem(problem.waypoints, problem.limits).family:
         lines.append(f"family = {_toml(problem.family)}")
@@ -116,6 +119,14 @@ def _text(problem: Problem, unit: str) -> str:
         for row in listed:
             lines += ["", f"[[conditions.{kind}]]", *_pairs(row)]
     return "\n".join(lines) + "\n"
+
+
+def _arm_of(problem: Problem) -> str:
+    """The shipped arm whose tool the problem limits."""
+    for name in ARMS:
+        if load_arm(name).tool == problem.tool:
+            return name
+    raise InputError("tool: it is that of no shipped arm; write the key robot of the file by hand")
 
 
 def _any(value: list[Any]) -> bool:

@@ -23,6 +23,7 @@ from formulations.proofs.certificate import certificate_of
 from formulations.proofs.every_motion.horizons import HorizonSearch
 from formulations.proofs.every_motion.zones import ZoneSearch
 from formulations.proofs.status import BoundStatus
+from formulations.proofs.tool.least_times import with_tool_times
 
 __all__ = ["BoundStatus", "FreeFormBound", "free_form_bound"]
 
@@ -200,7 +201,7 @@ def free_form_bound(
     if upper is not None and not (upper >= 0.0 and np.isfinite(upper)):
         raise InputError(f"upper: {upper!r} s is not a time")
     require_moderate(problem)
-    demands = Demands.of(problem, conditions)
+    demands = with_tool_times(Demands.of(problem, conditions))
     deadline = Deadline(time_limit, stop)
     zones = (demands.waypoints[..., 0] < demands.waypoints[..., 1]).any()
     search = (ZoneSearch if zones else HorizonSearch)(demands, upper, progress)
