@@ -23,7 +23,7 @@ class Peak:
     Attributes
     ----------
     quantity : str
-        One of ``QUANTITIES``.
+        One of ``QUANTITIES``, or "torque".
     joint, segment : int
         Where it is; both count from 0.
     time : float
@@ -54,8 +54,7 @@ class Peak:
     angle: str = "rad"
 
     def __str__(self) -> str:
-        unit = shown_unit(self.unit, self.angle, QUANTITIES.index(self.quantity))
-        scale = float(factors([self.unit], self.angle)[0])
+        unit, scale = unit_of(self.quantity, self.unit, self.angle)
         return (
             f"{self.quantity} of joint {self.name or self.joint + 1} in segment {self.segment + 1} at "
             f"{self.time:.4f} s: {self.value / scale:.6g} {unit}, limit {self.limit / scale:.6g} {unit}, "
@@ -66,6 +65,27 @@ class Peak:
     def urgency(self) -> float:
         """What peaks are sorted by: the stretch, or for a position the factor."""
         return self.stretch if np.isfinite(self.stretch) else self.factor
+
+
+def unit_of(quantity: str, unit: str, angle: str) -> tuple[str, float]:
+    """Find the unit that a quantity is shown in.
+
+    Parameters
+    ----------
+    quantity : str
+        One of ``QUANTITIES``, or "torque".
+    unit, angle : str
+        Unit of the joint's position, "rad" or "m", and the one that angles are shown in, "rad" or "deg".
+
+    Returns
+    -------
+    str
+    float
+        What one such unit is, in SI units.
+    """
+    if quantity == "torque":
+        return ("N" if unit == "m" else "N m"), 1.0
+    return shown_unit(unit, angle, QUANTITIES.index(quantity)), float(factors([unit], angle)[0])
 
 
 def peaks_of_joints(problem: Problem, trajectory: Trajectory, asked: Conditions) -> list[Peak]:
@@ -150,6 +170,10 @@ def peaks_of_joints(problem: Problem, trajectory: Trajectory, asked: Conditions)
                 found.append(
                     peak(extremes, order, piece, joint, is_high, limit, float(ratio[row, joint]))
                 )
+    if asked.torque is not None:
+        from formulations.dynamics import torque_peaks  # loaded where it is asked for
+
+        found += torque_peaks(problem, trajectory, asked.torque)
     return found
 
 

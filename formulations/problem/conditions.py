@@ -11,6 +11,7 @@ import numpy as np
 from formulations.problem.arrays import Array
 from formulations.problem.condition_checks import require_fitting
 from formulations.problem.limits import Limits
+from formulations.problem.torque import TorqueLimits
 
 if TYPE_CHECKING:
     from formulations.problem.problem import Problem
@@ -50,6 +51,8 @@ class Conditions:
         its start, which are free.
     segment_limits : mapping of int to Limits
         Limits that replace the problem's on a segment.
+    torque : TorqueLimits, optional
+        Limits on the torques of the motors, with the arm whose dynamics tell them.
 
     Examples
     --------
@@ -73,6 +76,7 @@ class Conditions:
     end_acceleration: EndState = None
     cyclic: bool = False
     segment_limits: Mapping[int, Limits] = field(default_factory=dict)
+    torque: TorqueLimits | None = None
 
     @property
     def asked(self) -> tuple[str, ...]:
@@ -112,6 +116,15 @@ class Conditions:
         passage = {k: time for k, time in self.passage.items() if k != problem.n_segments}
         return replace(self, total=None, passage=passage)
 
+    def without_torque(self) -> Conditions:
+        """Drop the torque limits: what every motion that keeps them keeps too.
+
+        Returns
+        -------
+        Conditions
+        """
+        return replace(self, torque=None)
+
     def validate(self, problem: Problem) -> None:
         """Refuse conditions that do not fit a problem.
 
@@ -128,7 +141,7 @@ class Conditions:
         require_fitting(self, problem)
 
     def of_joint(self, joint: int) -> Conditions:
-        """Return the conditions on one joint alone.
+        """Return the conditions on one joint alone; a torque is no matter of one joint and is left out.
 
         Parameters
         ----------
@@ -152,6 +165,7 @@ class Conditions:
             start_acceleration=mine(self.start_acceleration),
             end_acceleration=mine(self.end_acceleration),
             segment_limits={k: limits.of_joint(joint) for k, limits in self.segment_limits.items()},
+            torque=None,
         )
 
     def limits(self, problem: Problem) -> list[Limits]:
@@ -268,6 +282,6 @@ def _same(one: object, other: object) -> bool:
         return one.keys() == other.keys() and all(_same(one[key], other[key]) for key in one)
     if isinstance(one, str) or isinstance(other, str) or one is None or other is None:
         return one is other or (isinstance(one, str) and one == other)
-    if isinstance(one, Limits | frozenset | bool):
+    if isinstance(one, Limits | TorqueLimits | frozenset | bool):
         return one == other
     return np.array_equal(np.asarray(one), np.asarray(other))

@@ -19,10 +19,9 @@ from formulations import (
     Problem,
 )
 from formulations import plan as find_motion
-from formulations.motion.verdict import QUANTITIES
+from formulations.motion.peaks import unit_of
 from formulations.optima.at_rate.export import check_export, export_motion
 from formulations.optima.free_form import SearchStatus
-from formulations.problem.joint_words import shown_unit
 from formulations.proofs.status import BoundStatus
 
 _CUT_SHORT = {
@@ -162,7 +161,7 @@ def as_json(problem: Problem, found: FreeForm, bound: FreeFormBound | None = Non
                 "time": peak.time,
                 "value": peak.value,
                 "limit": peak.limit,
-                "unit": shown_unit(peak.unit, "rad", QUANTITIES.index(peak.quantity)),
+                "unit": unit_of(peak.quantity, peak.unit, "rad")[0],
                 "factor": peak.factor,
             }
             for peak in (() if found.verdict is None else found.verdict.peaks)
