@@ -8,6 +8,7 @@ them: the motion is planned again under the raised limit, and checked.
 from __future__ import annotations
 
 from dataclasses import dataclass, replace
+from typing import Any
 
 import numpy as np
 
@@ -15,6 +16,7 @@ from formulations.deadlines import NEVER, Deadline
 from formulations.motion.verdict import QUANTITIES
 from formulations.optima.free_form import FreeForm, SearchStatus, free_form
 from formulations.problem.arrays import Array
+from formulations.problem.conditions import Conditions
 from formulations.problem.joint_words import joint_label
 from formulations.problem.problem import Limits, Problem
 
@@ -135,7 +137,7 @@ def diagnose(
     ----------
     problem : Problem
     found : FreeForm
-        The motion of this problem, without conditions.
+        The motion of this problem, under any conditions, which stay as they are.
     more : float, default 0.1
         By how much a limit is raised, relative.
     top : int, default 4
@@ -179,7 +181,8 @@ def diagnose(
     for o, j in zip(*np.unravel_index(worst, per_limit.shape), strict=True):
         if per_limit[o, j] > _LEAST * found.seconds and not deadline.over:
             raised = _raised(problem, int(o), int(j), 1.0 + more)
-            faster = free_form(raised, time_limit=deadline.left, stop=deadline.stop)
+            asked = _raised_conditions(found.conditions, int(o), int(j), 1.0 + more)
+            faster = free_form(raised, conditions=asked, time_limit=deadline.left, stop=deadline.stop)
             if faster.status in (SearchStatus.TIME_LIMIT, SearchStatus.INTERRUPTED):
                 break
             savings.append(Saving(int(j), QUANTITIES[int(o) + 1], more, found.seconds - faster.seconds))
@@ -215,7 +218,7 @@ def _held(problem: Problem, found: FreeForm) -> Array:
     if found.sensitivity is not None:
         return found.sensitivity.held
     held = np.zeros((3, problem.n_segments, problem.dof))
-    if not problem.limits.has_acceleration and not problem.limits.has_jerk:
+    if found.conditions.none and not problem.limits.has_acceleration and not problem.limits.has_jerk:
         # with velocity limits only, the slowest joint holds a whole segment
         share = np.abs(problem.displacements) / problem.limits.velocity
         rows = np.arange(problem.n_segments)
@@ -224,8 +227,34 @@ def _held(problem: Problem, found: FreeForm) -> Array:
 
 
 def _raised(problem: Problem, order: int, joint: int, factor: float) -> Problem:
-    derivatives = problem.limits.derivatives.copy()
-    derivatives[order, joint] *= factor
-    velocity, acceleration, jerk = derivatives
-    limits = Limits.of(velocity, acceleration, jerk, problem.limits.position, dof=problem.dof)
-    return replace(problem, limits=limits)
+    return replace(
+        problem,
+        limits=_raised_limits(problem.limits, order, joint, factor),
+        conditions=_raised_conditions(problem.conditions, order, joint, factor),
+    )
+
+
+def _raised_conditions(asked: Conditions, order: int, joint: int, factor: float) -> Conditions:
+    """The same limit raised on the segments that have limits of their own."""
+    own = {k: _raised_limits(one, order, joint, factor) for k, one in asked.segment_limits.items()}
+    return replace(asked, segment_limits=own)
+
+
+def _raised_limits(limits: Limits, order: int, joint: int, factor: float) -> Limits:
+    """Limits with one raised, in both directions."""
+    by_order = {
+        QUANTITIES[1]: limits.velocity_interval,
+        QUANTITIES[2]: limits.acceleration_interval,
+        QUANTITIES[3]: None,
+    }
+    name, interval = list(by_order.items())[order]
+    changed: dict[str, Any] = {name: _scaled(getattr(limits, name), joint, factor)}
+    if interval is not None:
+        changed[f"{name}_interval"] = _scaled(interval, joint, factor)
+    return replace(limits, **changed)
+
+
+def _scaled(values: Array, joint: int, factor: float) -> Array:
+    found = values.copy()
+    found[joint] *= factor
+    return found

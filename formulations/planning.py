@@ -138,7 +138,8 @@ def plan(
         Waypoints and limits.
     conditions : Conditions, optional
         Stops, passage times, a total time, velocities at the ends, limits of single segments. The bound is
-        that of the motions that keep them; with a total time it says how fast they could be.
+        that of the motions that keep them; with a total time it says how fast they could be. With torque
+        limits it is the bound of all motions that keep the others, so that the gap holds what torques cost.
     gap : float, default 1e-3
         Relative gap to be reached.
     bound : bool, default True
@@ -174,7 +175,7 @@ def plan(
     if not (np.isfinite(gap) and gap > 0.0):
         raise InputError(f"gap: {gap:g} is not positive")
     say = progress or (lambda line: None)
-    asked = conditions or Conditions()
+    asked = problem.conditions if conditions is None else conditions
     deadline = Deadline(time_limit, stop)
     found = free_form(
         problem,

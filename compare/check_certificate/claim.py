@@ -2,95 +2,18 @@
 
 from __future__ import annotations
 
-from math import isfinite
 from typing import Any
 
 from compare.check_certificate.answers import BadInput, need
 from compare.check_certificate.balls import R, least, most
+from compare.check_certificate.demands import ClaimedDemands, plain_demands, read_demands
+from compare.check_certificate.reading import index, items, number
 
 FORMAT = "timebound certificate 1"
 LONGEST_NAME = 100  # characters
 MOST_EVENTS, MOST_SEGMENTS, MOST_JOINTS = 3_000_000, 50, 50
-
-
-def real(text: Any) -> float:
-    """Read a finite float from its hexadecimal text.
-
-    Parameters
-    ----------
-    text : object
-        From the file.
-
-    Returns
-    -------
-    float
-        Exact.
-    """
-    if not isinstance(text, str) or len(text) > 40:
-        raise BadInput(f"expected a hexadecimal float, got {text!r:.40}")
-    try:
-        value = float.fromhex(text)
-    except (ValueError, OverflowError):
-        raise BadInput(f"not a hexadecimal float: {text!r:.40}") from None
-    if not isfinite(value):
-        raise BadInput(f"not finite: {text!r:.40}")
-    return value
-
-
-def number(text: Any) -> Any:
-    """Read a finite float from its hexadecimal text, as a ball.
-
-    Parameters
-    ----------
-    text : object
-        From the file.
-
-    Returns
-    -------
-    arb
-        The number, exact.
-    """
-    return R(real(text))
-
-
-def index(value: Any, below: int) -> int:
-    """Read an integer in 0 .. below - 1.
-
-    Parameters
-    ----------
-    value : object
-        From the file.
-    below : int
-        The first integer that is too large.
-
-    Returns
-    -------
-    int
-        The integer.
-    """
-    if type(value) is not int or not 0 <= value < below:
-        raise BadInput(f"expected an integer from 0 to {below - 1}, got {value!r:.40}")
-    return value
-
-
-def items(value: Any, least: int, most: int) -> list[Any]:
-    """Read a list of bounded length.
-
-    Parameters
-    ----------
-    value : object
-        From the file.
-    least, most : int
-        The least and the greatest length.
-
-    Returns
-    -------
-    list
-        The list.
-    """
-    if not isinstance(value, list) or not least <= len(value) <= most:
-        raise BadInput(f"expected a list of {least} to {most} entries, got {value!r:.40}")
-    return value
+MOST_SEGMENTS_OF_A_SUM = 5_000  # of a bound of every motion: the work grows with the rows alone
+EVERY_MOTION = "every-motion"  # the family of bounds of every motion
 
 
 class Claim:
@@ -104,7 +27,9 @@ class Claim:
         if not isinstance(data, dict) or data.get("format") != FORMAT:
             raise BadInput(f"not a certificate: its format is not {FORMAT!r}")
         self.family = str(data.get("family"))
-        rows = items(data.get("waypoints"), 2, MOST_SEGMENTS + 1)
+        every = self.family == EVERY_MOTION
+        longest = MOST_SEGMENTS_OF_A_SUM if every else MOST_SEGMENTS
+        rows = items(data.get("waypoints"), 2, longest + 1)
         self.dof = len(items(rows[0], 1, MOST_JOINTS))
         self.w = [[number(x) for x in items(row, self.dof, self.dof)] for row in rows]
         self.n = len(rows) - 1
@@ -136,9 +61,24 @@ class Claim:
             for pair in zip(self.w, self.w[1:], strict=False)
         ]
         self.moving = [j for j in range(self.dof) if not all(row[j] == 0 for row in self.d)]
-        need(self.moving, "nothing moves: any motion is as fast as it likes")
+        asked = data.get("demands")
+        if asked is None:
+            need(self.moving, "nothing moves: any motion is as fast as it likes")
+        elif not every:
+            raise BadInput(f"demands: a bound of {self.family!r:.20} keeps none")
+        self._asked = asked
         # the prover widens the limits by a thousandth more
         self.slack *= R(1001) / 1000
+
+    def demands(self) -> ClaimedDemands:
+        """Read what the motions have to keep.
+
+        Returns
+        -------
+        ClaimedDemands
+            Those of the file; of a plain problem where it has none.
+        """
+        return plain_demands(self) if self._asked is None else read_demands(self._asked, self)
 
     def joint_name(self, j: int) -> str:
         """Say which joint is meant: its name, or its number from 1 where it has none.

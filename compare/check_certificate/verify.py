@@ -5,13 +5,13 @@ from __future__ import annotations
 from typing import Any
 
 from compare.check_certificate.answers import BadInput
-from compare.check_certificate.claim import Claim
+from compare.check_certificate.claim import EVERY_MOTION, Claim
 from compare.check_certificate.families.b_spline.tree import BSplineTree
+from compare.check_certificate.families.every_motion.relaxation import Relaxation
 from compare.check_certificate.families.four_three_four import FourThreeFour
 from compare.check_certificate.families.quintic import Quintic
-from compare.check_certificate.families.relaxation import Relaxation
 from compare.check_certificate.families.three_five_three import ThreeFiveThree
-from compare.check_certificate.words import proof_in_words
+from compare.check_certificate.words import demands_in_words, proof_in_words
 
 
 def verify(data: Any, *, show: bool = False) -> str:
@@ -43,15 +43,16 @@ def verify(data: Any, *, show: bool = False) -> str:
         "quintic": Quintic,
         "b-spline-3": BSplineTree,
         "b-spline-5": BSplineTree,
-        "every-motion": Relaxation,
+        EVERY_MOTION: Relaxation,
     }
     if claim.family not in trees:
         raise BadInput(f"family: {claim.family!r:.40} is not one of {', '.join(trees)}")
     tree = trees[claim.family](claim)
     discards = 0 if tree.void else tree.replay()
     every = isinstance(tree, Relaxation)
+    asked = demands_in_words(tree.demands) if isinstance(tree, Relaxation) else ""
     words = (
-        f"no {'motion' if every else f'{claim.family} motion'} of {str(data.get('name'))[:60]!r} "
+        f"no {'motion' if every else f'{claim.family} motion'} of {str(data.get('name'))[:60]!r}{asked} "
         f"takes {float(claim.L):.12g} s or less "
         f"({len(claim.events)} events, {discards} {'rows' if every else 'discards'})"
     )

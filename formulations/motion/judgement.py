@@ -18,6 +18,7 @@ from formulations.motion.smoothness import TOLERANCE, Jump, jumps, motion_at
 from formulations.motion.trajectory import Trajectory
 from formulations.problem.arrays import Array
 from formulations.problem.conditions import Conditions
+from formulations.problem.demands import Demands
 from formulations.problem.errors import InputError
 from formulations.problem.problem import Problem
 
@@ -203,8 +204,8 @@ def judge(
     """
     if not (np.isfinite(tolerance) and tolerance > 0.0):
         raise InputError(f"tolerance: {tolerance:g} is not a positive distance")
-    asked = conditions or Conditions()
-    asked.validate(problem)
+    demands = Demands.of(problem, conditions)
+    asked = demands.conditions
     wanted = problem.names
     names, method = wanted, "pieces"
     if isinstance(motion, MotionPoints):
@@ -219,7 +220,7 @@ def judge(
     passed = passages(trajectory, problem.waypoints, asked.passage)
     trajectory = Trajectory(trajectory.durations, trajectory.coefficients, passed.times)
     peaks = sorted(
-        peaks_of_joints(problem, trajectory, asked),
+        peaks_of_joints(demands, trajectory),
         key=lambda peak: (peak.factor > 1.0, peak.urgency),
         reverse=True,
     )
@@ -231,7 +232,8 @@ def judge(
         _rounding(trajectory, order, _size(trajectory, order, sizes[order])) for order in range(3)
     ]
     ends = np.array([0.0, trajectory.seconds])
-    moving = motion_at(problem, trajectory, ends, asked.end_velocities(problem), smooth)
+    states = np.stack([demands.end_velocity, demands.end_acceleration])
+    moving = motion_at(problem, trajectory, ends, states, smooth)
     for stop in sorted(asked.stops - {0, problem.n_segments}):
         moving += _moving_at(problem, trajectory, stop, tolerance, stop in asked.passage)
     return Judgement(

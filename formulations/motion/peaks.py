@@ -7,9 +7,10 @@ from dataclasses import dataclass
 
 import numpy as np
 
+from formulations.motion.cut import cut_at
 from formulations.motion.extremes import Extremes
 from formulations.motion.trajectory import Trajectory
-from formulations.problem.conditions import Conditions
+from formulations.problem.demands import Demands
 from formulations.problem.joint_words import factors, shown_unit
 from formulations.problem.problem import Problem
 
@@ -88,24 +89,24 @@ def unit_of(quantity: str, unit: str, angle: str) -> tuple[str, float]:
     return shown_unit(unit, angle, QUANTITIES.index(quantity)), float(factors([unit], angle)[0])
 
 
-def peaks_of_joints(problem: Problem, trajectory: Trajectory, asked: Conditions) -> list[Peak]:
+def peaks_of_joints(demands: Demands, trajectory: Trajectory) -> list[Peak]:
     """Find the worst place of every limited quantity of every joint.
 
     Parameters
     ----------
-    problem : Problem
-        Its limits hold where the conditions give no others.
+    demands : Demands
+        Limits per segment.
     trajectory : Trajectory
         The motion.
-    asked : Conditions
-        May limit single segments further.
 
     Returns
     -------
     list of Peak
         At most one for each joint and quantity.
     """
-    found = []
+    found, problem = [], demands.problem
+    if demands.conditions.segment_limits:
+        trajectory = cut_at(trajectory, trajectory.passage_times)
     # each piece belongs to the segment that its middle lies in
     middles = trajectory.breaks[:-1] + 0.5 * trajectory.durations
     segments = np.searchsorted(trajectory.passage_times, middles) - 1
@@ -138,7 +139,7 @@ def peaks_of_joints(problem: Problem, trajectory: Trajectory, asked: Conditions)
         )
         return Peak(name, joint, int(segments[piece]), time, value, limit, factor, stretch, *words)
 
-    bounds = asked.position_bounds(problem)
+    bounds = demands.position
     if np.isfinite(bounds).any():
         extremes = trajectory.extremes(0)
         low, high = bounds[mine, :, 0], bounds[mine, :, 1]
@@ -154,26 +155,26 @@ def peaks_of_joints(problem: Problem, trajectory: Trajectory, asked: Conditions)
                 # strictly inside counts as exactly 1: a position is kept or not
                 factor = 1.0 + max(float(excess[row, joint]), 0.0) / float(width[row, joint])
                 found.append(peak(extremes, 0, piece, joint, is_high, limit, factor))
-    for order in (1, 2, 3):
-        limits = asked.derivatives(problem)[order - 1]
-        if not np.isfinite(limits).any():
+    both_ways = (demands.velocity, demands.acceleration, np.stack([-demands.jerk, demands.jerk], axis=-1))
+    for order, intervals in enumerate(both_ways, start=1):
+        if not np.isfinite(intervals).any():
             continue
-        limits = limits[mine]
+        down, up = -intervals[mine, :, 0], intervals[mine, :, 1]
         extremes = trajectory.extremes(order)
-        upper = np.maximum.reduceat(extremes.high, starts) / limits
-        lower = -np.minimum.reduceat(extremes.low, starts) / limits
+        upper = np.maximum.reduceat(extremes.high, starts) / up
+        lower = -np.minimum.reduceat(extremes.low, starts) / down
         ratio = np.maximum(upper, lower)
         for joint, row in enumerate(ratio.argmax(axis=0).tolist()):
-            limit = float(limits[row, joint])
+            piece, is_high = worst_piece(extremes, row, joint, upper[row, joint], lower[row, joint])
+            limit = float((up if is_high else down)[row, joint])
             if np.isfinite(limit):
-                piece, is_high = worst_piece(extremes, row, joint, upper[row, joint], lower[row, joint])
                 found.append(
                     peak(extremes, order, piece, joint, is_high, limit, float(ratio[row, joint]))
                 )
-    if asked.torque is not None:
+    if demands.conditions.torque is not None:
         from formulations.dynamics import torque_peaks  # loaded where it is asked for
 
-        found += torque_peaks(problem, trajectory, asked.torque)
+        found += torque_peaks(demands.problem, trajectory, demands.conditions.torque)
     return found
 
 

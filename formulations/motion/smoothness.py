@@ -74,7 +74,7 @@ def motion_at(
     problem: Problem,
     trajectory: Trajectory,
     times: Array,
-    velocities: Array | None = None,
+    states: Array | None = None,
     relative: Sequence[Array] | None = None,
 ) -> list[Jump]:
     """Find what moves at times of rest, and what has an acceleration there where jerk is limited.
@@ -87,8 +87,8 @@ def motion_at(
         The motion.
     times : Array, shape (n_times,) [s]
         When it should be at rest.
-    velocities : Array, shape (n_times, dof) [rad/s], optional
-        Velocities that it should have instead.
+    states : Array, shape (2, n_times, dof, 2), optional
+        Least and greatest velocity and acceleration that it should have instead; 0 if left out.
     relative : sequence of Array, shape (3, dof), optional
         As for ``jumps``.
 
@@ -97,10 +97,36 @@ def motion_at(
     list of Jump
         The difference to rest as a jump; in each quantity the worst first.
     """
-    given = np.zeros((len(times), problem.dof)) if velocities is None else velocities
-    off = [np.zeros_like(given)]
-    off += [np.abs(trajectory.at(times, order) - given * (order == 1)) for order in (1, 2)]
+    given = np.zeros((2, len(times), problem.dof, 2)) if states is None else states
+    off = [np.zeros((len(times), problem.dof))]
+    for order in (1, 2):
+        value, (low, high) = trajectory.at(times, order), np.moveaxis(given[order - 1], -1, 0)
+        off.append(np.maximum(np.maximum(low - value, value - high), 0.0))
     return _found(problem, trajectory, np.stack(off), times, relative)
+
+
+def end_jumps(
+    problem: Problem, trajectory: Trajectory, relative: Sequence[Array] | None = None
+) -> list[Jump]:
+    """Find by how much the end of a cycle differs from its start.
+
+    Parameters
+    ----------
+    problem : Problem
+        Its limits say how small a difference is rounding.
+    trajectory : Trajectory
+        The motion.
+    relative : sequence of Array, shape (3, dof), optional
+        As for ``jumps``.
+
+    Returns
+    -------
+    list of Jump
+        At the end of the motion; in each quantity the worst first.
+    """
+    ends = np.array([0.0, trajectory.seconds])
+    sizes = np.stack([np.abs(np.diff(trajectory.at(ends, order), axis=0)) for order in range(3)])
+    return _found(problem, trajectory, sizes, ends[1:], relative)
 
 
 def rounding_of_positions(problem: Problem) -> float:

@@ -13,13 +13,16 @@ import numpy as np
 from formulations.motion.peaks import QUANTITIES, Peak, peaks_of_joints, worst_of_quantities
 from formulations.motion.smoothness import (
     TOLERANCE,
+    end_jumps,
     jumps,
     motion_at,
     rounding_of_positions,
 )
+from formulations.motion.timing import passage_faults, segment_faults, wait_faults
 from formulations.motion.trajectory import Trajectory
 from formulations.problem.arrays import Array
 from formulations.problem.conditions import Conditions
+from formulations.problem.demands import Demands
 from formulations.problem.errors import InputError
 from formulations.problem.problem import Problem
 
@@ -68,7 +71,7 @@ def check(
     through: bool = True,
     conditions: Conditions | None = None,
 ) -> Verdict:
-    """Judge a motion by its exact extremes: waypoints, continuity, rest and limits.
+    """Judge a motion by its exact extremes: waypoints, continuity, states at the ends, times and limits.
 
     A limit counts as kept up to a relative excess of 1e-9 (``TOLERANCE``), which is rounding.
 
@@ -81,7 +84,8 @@ def check(
     through : bool
         Whether every waypoint has to be passed; False asks for the first and the last alone.
     conditions : Conditions, optional
-        What else is asked for: times, stops, velocities at the ends, limits of single segments.
+        What else is asked for: zones, times, stops, waits, states at the ends, limits of single segments.
+        Those of the problem if left out.
 
     Returns
     -------
@@ -104,27 +108,32 @@ def check(
     >>> slower.feasible
     True
     """
-    asked = conditions or Conditions()
     if trajectory.dof != problem.dof:
         raise InputError(f"trajectory: {trajectory.dof} joints, the problem has {problem.dof}")
-    targets = problem.waypoints if through else problem.waypoints[[0, -1]]
-    known = len(trajectory.passage_times) == len(targets)
+    demands = Demands.of(problem, conditions)
+    boxes = demands.waypoints if through else demands.waypoints[[0, -1]]
     faults = [
-        *_waypoint_faults(problem, trajectory, targets),
-        *_smoothness_faults(problem, trajectory, asked, known),
-        *_time_faults(problem, trajectory, asked, known),
+        *_waypoint_faults(problem, trajectory, boxes),
+        *_smoothness_faults(demands, trajectory),
     ]
-    peaks = worst_of_quantities(peaks_of_joints(problem, trajectory, asked))
+    if len(trajectory.passage_times) == len(problem.waypoints):
+        faults += [
+            *_stop_faults(demands, trajectory),
+            *passage_faults(demands, trajectory),
+            *segment_faults(demands, trajectory),
+            *wait_faults(demands, trajectory, rounding_of_positions(problem)),
+        ]
+    peaks = worst_of_quantities(peaks_of_joints(demands, trajectory))
     faults += [f"over the limit: {peak}" for peak in peaks if peak.factor > 1.0 + TOLERANCE]
     stretch = max((peak.stretch for peak in peaks if peak.quantity != "position"), default=0.0)
     return Verdict(trajectory.seconds, not faults, stretch, tuple(peaks), tuple(faults))
 
 
-def _waypoint_faults(problem: Problem, trajectory: Trajectory, targets: Array) -> Iterator[str]:
-    """Passage times that cannot be, and waypoints (n, dof) that are missed."""
+def _waypoint_faults(problem: Problem, trajectory: Trajectory, boxes: Array) -> Iterator[str]:
+    """Passage times that cannot be, and waypoints whose boxes (n, dof, 2) are missed."""
     times = trajectory.passage_times
-    if len(times) != len(targets):
-        yield f"{len(times)} passage times for {len(targets)} waypoints"
+    if len(times) != len(boxes):
+        yield f"{len(times)} passage times for {len(boxes)} waypoints"
     elif not (
         abs(times[0]) <= TOLERANCE * trajectory.seconds
         and abs(times[-1] - trajectory.seconds) <= TOLERANCE * trajectory.seconds
@@ -132,44 +141,39 @@ def _waypoint_faults(problem: Problem, trajectory: Trajectory, targets: Array) -
     ):
         yield "passage times do not run from the start to the end of the motion"
     else:
-        miss = np.abs(trajectory.at(times) - targets)
+        at, (low, high) = trajectory.at(times), np.moveaxis(boxes, -1, 0)
+        miss = np.maximum(low - at, at - high)
         if miss.max() > rounding_of_positions(problem):
             row, joint = divmod(int(miss.argmax()), problem.dof)
             by = problem.amount(float(miss.max()), joint, digits=3)
-            yield f"misses waypoint {row + 1}, {problem.joint_name(joint)} by {by}"
+            zone = "" if low[row, joint] == high[row, joint] else "the zone of "
+            yield f"misses {zone}waypoint {row + 1}, {problem.joint_name(joint)} by {by}"
 
 
-def _smoothness_faults(
-    problem: Problem, trajectory: Trajectory, asked: Conditions, known: bool
-) -> Iterator[str]:
-    """Jumps between pieces, and motion at the ends and stops; of the acceleration where jerk is limited.
-
-    known: whether there is a passage time for each waypoint.
-    """
+def _smoothness_faults(demands: Demands, trajectory: Trajectory) -> Iterator[str]:
+    """Jumps between pieces, and wrong states at both ends; of the acceleration where jerk is limited."""
+    problem = demands.problem
     jumping = jumps(problem, trajectory)
-    ends = asked.end_velocities(problem)
+    ends = np.stack([demands.end_velocity, demands.end_acceleration])
     moving = motion_at(problem, trajectory, np.array([0.0, trajectory.seconds]), ends)
-    stops = {
-        stop: motion_at(problem, trajectory, trajectory.passage_times[[stop]])
-        for stop in sorted(asked.stops if known else ())
-    }
+    differing = end_jumps(problem, trajectory) if demands.cyclic else []
     for order, name in enumerate(QUANTITIES[:3]):
         for jump in [jump for jump in jumping if jump.quantity == name][:1]:
             yield f"{name} of {problem.joint_name(jump.joint)} jumps by {jump.size:.3g}"
         for jump in [jump for jump in moving if jump.quantity == name][:1]:
-            off = f"off by {jump.size:.3g}" if order == 1 and ends.any() else f"{jump.size:.3g}"
+            off = f"off by {jump.size:.3g}" if order and ends[order - 1].any() else f"{jump.size:.3g}"
             yield f"{name} of {problem.joint_name(jump.joint)} is {off} at an end"
-        for stop, found in stops.items():
+        for jump in [jump for jump in differing if jump.quantity == name][:1]:
+            where = problem.joint_name(jump.joint)
+            yield f"{name} of {where} differs by {jump.size:.3g} between both ends of the cycle"
+
+
+def _stop_faults(demands: Demands, trajectory: Trajectory) -> Iterator[str]:
+    """Stops at which something moves."""
+    problem = demands.problem
+    for stop in sorted(demands.conditions.stops | set(demands.conditions.waits)):
+        found = motion_at(problem, trajectory, trajectory.passage_times[[stop]])
+        for name in QUANTITIES[1:3]:
             for jump in [jump for jump in found if jump.quantity == name][:1]:
                 where = problem.joint_name(jump.joint)
                 yield f"{name} of {where} is {jump.size:.3g} at waypoint {stop + 1}, a stop"
-
-
-def _time_faults(
-    problem: Problem, trajectory: Trajectory, asked: Conditions, known: bool
-) -> Iterator[str]:
-    """Waypoints that are passed at another time than asked for."""
-    times = trajectory.passage_times
-    for waypoint, time in asked.times(problem).items():
-        if known and abs(times[waypoint] - time) > TOLERANCE * time:
-            yield f"passes waypoint {waypoint + 1} at {times[waypoint]:.9g} s, not {time:.9g} s"

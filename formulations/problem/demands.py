@@ -86,6 +86,9 @@ class Demands:
         intervals = [one.intervals for one in limits]
         velocity, acceleration = (np.stack([pair[i] for pair in intervals]) for i in (0, 1))
         waypoints = _inside(problem.waypoints, zones, asked.position_bounds(problem))
+        if asked.cyclic:  # both ends are one waypoint
+            waypoints[[0, -1], :, 0] = waypoints[[0, -1], :, 0].max(axis=0)
+            waypoints[[0, -1], :, 1] = waypoints[[0, -1], :, 1].min(axis=0)
         ends = [asked.end_velocities(problem), asked.end_accelerations(problem)]
         end_velocity, end_acceleration = (
             np.where(np.isnan(given)[..., None], whole[[0, -1]], given[..., None])

@@ -7,6 +7,7 @@
                inside it, ["l", lo, hi] the last segment, for T1 in [lo, hi]
     horizon    null, or for a bound of every motion ("every-motion"): H [s]; its events are those of
                ``every_motion.events``
+    demands    null, or for a bound under conditions the arrays of ``formulations.problem.demands``
     events     in depth-first order (see ``events``), the first letter says which:
                ["T"] ["E"] ["S", k, value] ["L", rows] ["B", k, value, rows] ["A", k, value, rows]
                ["W", start, end, b, H] (4-3-4): what follows proves that segments start .. end - 1 take
@@ -34,6 +35,7 @@ from typing import Any
 import numpy as np
 
 from formulations.problem.arrays import Array
+from formulations.problem.demands import Demands
 from formulations.problem.files import write_text
 from formulations.problem.problem import Problem
 from formulations.proofs.conditions import (
@@ -66,6 +68,7 @@ def certificate_of(
     events: list[list[Any]] | None = None,
     short: dict[str, Any] | None = None,
     horizon: float | None = None,
+    demands: Demands | None = None,
 ) -> dict[str, Any]:
     """Write down what proves a bound.
 
@@ -81,6 +84,8 @@ def certificate_of(
         For 3-5-3 with a middle segment on which nothing moves, see above.
     horizon : float [s], optional
         For a bound of every motion, not of the family alone.
+    demands : Demands, optional
+        What the motions have to keep beyond waypoints and limits.
 
     Returns
     -------
@@ -104,6 +109,7 @@ def certificate_of(
         "seconds": seconds.hex(),
         "short": short,
         "horizon": None if horizon is None else horizon.hex(),
+        "demands": None if demands is None else _of_demands(demands),
         "events": events or [],
     }
 
@@ -151,6 +157,18 @@ def _hex(values: Array) -> Any:
     if values.ndim > 1:
         return [_hex(row) for row in values]
     return [float(x).hex() if np.isfinite(x) else None for x in values]
+
+
+def _of_demands(demands: Demands) -> dict[str, Any]:
+    """All arrays of the demands, floats as hexadecimal text."""
+    found = {
+        key: _hex(getattr(demands, key))
+        for key in (
+            *("waypoints", "velocity", "acceleration", "jerk", "position"),
+            *("end_velocity", "end_acceleration", "waits", "durations", "passages"),
+        )
+    }
+    return {**found, "stops": demands.stops.tolist(), "cyclic": demands.cyclic}
 
 
 def _short(problem: Problem, proof: Proof) -> Any:

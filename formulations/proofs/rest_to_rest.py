@@ -10,8 +10,11 @@ from __future__ import annotations
 import math
 from fractions import Fraction
 
+import numpy as np
+
+from formulations.problem.demands import Demands
 from formulations.problem.problem import Problem
-from formulations.proofs.displacement import rounded_down
+from formulations.proofs.displacement import distance_between, rounded_down
 
 
 def rest_to_rest(distance: float, velocity: float, acceleration: float, jerk: float) -> float:
@@ -79,17 +82,23 @@ def end_to_end_bound(problem: Problem) -> float:
     Parameters
     ----------
     problem : Problem
-        Its inner waypoints are ignored, which makes the motions more.
+        Its inner waypoints are ignored, which makes the motions more, and so are all conditions but zones and
+        the states at the ends. Where an end is not at rest, displacement over top speed bounds the motions.
 
     Returns
     -------
     float
         Bound of the slowest joint, rounded down [s].
     """
-    first, last = problem.waypoints[0].tolist(), problem.waypoints[-1].tolist()
+    asked = problem.conditions
+    boxes = Demands.of(problem).waypoints[[0, -1]]
+    # a limit that is lower in one direction, or on one segment, is taken as if it were nowhere lower
+    limits = asked.derivatives(problem).max(axis=1)
+    ends = np.stack([asked.end_velocities(problem), asked.end_accelerations(problem)])
+    limits[1:, ends.any(axis=(0, 1))] = np.inf  # NaN, which stands for a free state, counts as true
     return max(
-        rest_to_rest_bound(abs(Fraction(end) - Fraction(start)), *map(float, limits))
-        for start, end, limits in zip(first, last, problem.limits.derivatives.T, strict=True)
+        rest_to_rest_bound(distance_between(*boxes[:, j]), *map(float, limits[:, j]))
+        for j in range(problem.dof)
     )
 
 

@@ -17,8 +17,9 @@ from compare.check_certificate.balls import (
     product,
     times,
 )
-from compare.check_certificate.claim import Claim, index, items, number
+from compare.check_certificate.claim import Claim
 from compare.check_certificate.families.tree import Node, Tree
+from compare.check_certificate.reading import index, items, number
 
 
 class FourThreeFour(Tree):

@@ -8,7 +8,8 @@ from typing import Any
 
 from compare.check_certificate.answers import BadInput, need
 from compare.check_certificate.balls import R, derivative, least
-from compare.check_certificate.claim import Claim, index, items, number
+from compare.check_certificate.claim import Claim
+from compare.check_certificate.reading import index, items, number
 
 MOST_ROWS, MOST_CUTS, MOST_TRIPLES, MOST_WORK = 20_000, 1_000_000, 5_000_000, 1_000_000_000
 

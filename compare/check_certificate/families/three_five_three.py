@@ -15,8 +15,9 @@ from compare.check_certificate.balls import (
     product,
     times,
 )
-from compare.check_certificate.claim import MOST_EVENTS, Claim, index, items, number
+from compare.check_certificate.claim import MOST_EVENTS, Claim
 from compare.check_certificate.families.tree import Node, Tree
+from compare.check_certificate.reading import index, items, number
 
 
 class ThreeFiveThree(Tree):

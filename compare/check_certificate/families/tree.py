@@ -6,7 +6,8 @@ from typing import Any
 
 from compare.check_certificate.answers import BadInput, Refused, need
 from compare.check_certificate.balls import least, most
-from compare.check_certificate.claim import MOST_SEGMENTS, Claim, index, items, number
+from compare.check_certificate.claim import MOST_SEGMENTS, Claim
+from compare.check_certificate.reading import index, items, number
 
 
 class Node:

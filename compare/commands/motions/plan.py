@@ -5,7 +5,7 @@ from __future__ import annotations
 import sys
 
 from compare.commands import DONE, FAILED, INTERRUPTED
-from compare.commands.motions.condition_options import ConditionOptions, conditions_of
+from compare.commands.motions.condition_options import PlanConditionOptions, conditions_of
 from compare.commands.motions.problem_options import FileOrRobot, OwnRobotOptions, problem_of
 from compare.commands.options import Export, Gap, Json, Rate, TimeLimit
 from compare.interrupts import ctrl_c_stops
@@ -35,7 +35,7 @@ def plan(
     /,
     *,
     own: OwnRobotOptions = None,
-    asked: ConditionOptions = None,
+    asked: PlanConditionOptions = None,
     gap: Gap = 1e-3,
     time_limit: TimeLimit = None,
     no_bound: bool = False,

@@ -217,6 +217,11 @@ def limits_for(points: MotionPoints, own: OwnRobot | None) -> tuple[MotionPoints
             raise InputError(f"--limits: {file} is a problem file, which stands alone")
         posed = load(file)
         limits, wanted, whose = posed.limits, posed.names, file
+        if not posed.conditions.none:
+            print(
+                f"hint: --limits {file}: its [conditions] are about its waypoints and are not used",
+                file=sys.stderr,
+            )
     else:
         files = own.files
         if files.joints is None and files.group is None and points.names:

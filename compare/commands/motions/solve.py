@@ -3,12 +3,14 @@
 from __future__ import annotations
 
 import sys
+from dataclasses import replace
 from typing import Annotated, Any
 
 from cyclopts import Parameter
 
 from compare.commands import BAD_INPUT, DONE, FAILED, INTERRUPTED
 from compare.commands.motions.climbing import chosen_rungs, climb, unsolved
+from compare.commands.motions.condition_options import PlanConditionOptions, conditions_of
 from compare.commands.motions.problem_options import FileOrRobot, OwnRobotOptions, problem_of
 from compare.commands.options import (
     Export,
@@ -38,6 +40,7 @@ def solve(
     /,
     *,
     own: OwnRobotOptions = None,
+    asked: PlanConditionOptions = None,
     json: Json = None,
     certificate: Annotated[str | None, Parameter(metavar="FILE", validator=writable)] = None,
     motion_certificate: Annotated[str | None, Parameter(metavar="FILE", validator=writable)] = None,
@@ -63,8 +66,9 @@ def solve(
         Write the proof of free_form_lower, which holds for every motion.
     """
     problem = problem_of(file, own)
+    problem = replace(problem, conditions=conditions_of(asked, problem))
     if export is not None:
-        check_export(export, problem, rate)
+        check_export(export, problem, rate, problem.conditions)
     chosen = chosen_rungs(problem, rungs, without)
     deadline = Deadline(time_limit)
     with ctrl_c_stops() as stop, stages(problem.name) as stage:
@@ -154,7 +158,9 @@ def _export(path: str, problem: Problem, answer: Ladder, rate: float | None) -> 
     if not verified:
         raise InputError("--export: there is no verified motion")
     key = min(verified, key=lambda key: verified[key])
-    written = export_motion(path, problem, answer.trajectories[key], rate)
+    written = export_motion(
+        path, problem, answer.trajectories[key], rate, conditions=problem.conditions
+    )
     return "\n".join([f"{key}, {verified[key]:.9g} s", *written.lines()])
 
 

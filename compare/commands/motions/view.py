@@ -5,6 +5,7 @@ from __future__ import annotations
 import re
 import sys
 import webbrowser
+from dataclasses import replace
 from pathlib import Path
 from typing import Annotated
 
@@ -26,7 +27,7 @@ from compare.interrupts import ctrl_c_stops
 from compare.report.view_page import view_page
 from compare.report.viewed import Viewed
 from compare.screen import stages
-from formulations import NoFeasibleMotion, Problem, plan
+from formulations import Conditions, NoFeasibleMotion, Problem, plan
 from formulations.assessment import Assessment, beside
 from formulations.deadlines import Deadline
 from formulations.motion.files.motion_file import read_points
@@ -109,7 +110,9 @@ def view(
                 )
             except NoFeasibleMotion as reason:
                 remarks.append(f"No motion was found that keeps the conditions: {reason}.")
-        answer, held = climb(problem, chosen, deadline, stage, gap=gap)
+        # the ladder is that of the problem without conditions: what they cost is seen beside it
+        alone = replace(problem, conditions=Conditions())
+        answer, held = climb(alone, chosen, deadline, stage, gap=gap)
         interrupted = stop()
     bound = answer.free_form_bound
     if not conditions.none:

@@ -89,7 +89,7 @@ def at_rate(
     NoFeasibleMotion
         No motion was found even with 32 further periods per segment.
     """
-    asked = conditions or Conditions()
+    asked = problem.conditions if conditions is None else conditions
     require_exportable(problem, trajectory.seconds, rate)
     verdict = None
     for patience in _EXTRA if rate is not None else _STRETCHES:

@@ -74,7 +74,7 @@ def check_request(problem: Problem, rate: float | None, conditions: Conditions |
     """
     shares = np.abs(problem.displacements) / problem.limits.velocity
     require_exportable(problem, float(shares.max(axis=1).sum()), rate)
-    asked = conditions or Conditions()
+    asked = problem.conditions if conditions is None else conditions
     asked.validate(problem)
     if rate is None:
         return

@@ -5,6 +5,7 @@ from __future__ import annotations
 import time
 from collections.abc import Callable
 from dataclasses import dataclass, replace
+from functools import partial
 from typing import Literal
 
 import casadi
@@ -22,6 +23,7 @@ from formulations.optima.free_form.sensitivity import Sensitivity
 from formulations.optima.free_form.stage import Stage, VerifiedMotion
 from formulations.problem.arrays import Array
 from formulations.problem.conditions import Conditions
+from formulations.problem.demands import Demands
 from formulations.problem.errors import InputError, NoFeasibleMotion, NotFoundInTime
 from formulations.problem.problem import Problem
 from formulations.problem.size import require_moderate
@@ -205,7 +207,7 @@ def free_form(
     begun = time.perf_counter()
     deadline = Deadline(time_limit, stop)
     require_moderate(problem)
-    asked = conditions or Conditions()
+    asked = problem.conditions if conditions is None else conditions
     asked.validate(problem)
     if not (_LEAST_ARCS <= mesh <= _MOST_ARCS):
         raise InputError(f"mesh: {mesh} arcs per segment, expected {_LEAST_ARCS} to {_MOST_ARCS}")
@@ -213,6 +215,26 @@ def free_form(
         raise InputError(f"tolerance: {tolerance:g} is not positive")
     if solver not in ("ipopt", "highs"):
         raise InputError(f"solver: {solver!r} is not known (known: highs, ipopt)")
+    if asked.torque is not None:
+        from formulations.optima.torque import torque_feasible  # it searches from what is found here
+
+        return torque_feasible(
+            Demands.of(problem, asked),
+            partial(
+                free_form,
+                problem,
+                conditions=asked.without_torque(),
+                mesh=mesh,
+                tolerance=tolerance,
+                solver=solver,
+                stop=stop,
+                progress=progress,
+            ),
+            mesh=mesh,
+            tolerance=tolerance,
+            deadline=deadline,
+            progress=progress,
+        )
     notes = []
     if solver == "ipopt" and not casadi.has_nlpsol("ipopt"):
         solver = "highs"
@@ -232,7 +254,7 @@ def free_form(
         raise NotFoundInTime(f"{status}: no motion was found yet that keeps {_named(asked)}")
     if best is None:
         raise NoFeasibleMotion(_why_not(problem, asked, search))
-    if asked.none and best.verdict.seconds > 0.999 * search.stages[0].seconds:
+    if asked.none and problem.limits.symmetric and best.verdict.seconds > 0.999 * search.stages[0].seconds:
         best = _or_ruckig(problem, best)
     if task.group(1):
         notes.append(

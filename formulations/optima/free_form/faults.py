@@ -1,4 +1,4 @@
-"""What a motion on arcs keeps badly before it is assembled: position limits and fixed times."""
+"""What a motion on arcs keeps badly before it is assembled: position limits and times."""
 
 from __future__ import annotations
 
@@ -46,8 +46,8 @@ def outside(task: ConditionedProblem, motion: ArcMotion) -> frozenset[tuple[int,
         return frozenset()
     bounds = task.position_bounds
     middles = whole.breaks[:-1] + 0.5 * whole.durations
-    passages = np.unique(whole.passage_times)
-    segment = np.searchsorted(passages, middles) - 1
+    arrivals = np.cumsum(motion.times) + task.waited[1:]
+    segment = np.minimum(np.searchsorted(arrivals, middles), task.n_segments - 1)
     extremes, slack = whole.extremes(0), task.problem.position_slack
     low, high = bounds[segment, :, 0] - slack, bounds[segment, :, 1] + slack
     out = (extremes.low < low) | (extremes.high > high)
@@ -55,18 +55,39 @@ def outside(task: ConditionedProblem, motion: ArcMotion) -> frozenset[tuple[int,
 
 
 def missed(task: ConditionedProblem, motion: ArcMotion) -> float:
-    """Measure by how much a motion misses the fixed times.
+    """Measure by how much a motion misses the times asked for.
 
     Parameters
     ----------
     task : ConditionedProblem
-        With at least one fixed time.
+        With at least one time that is not to be exceeded.
     motion : ArcMotion
 
     Returns
     -------
     float
-        The largest difference, as a share of the longest fixed time.
+        The largest difference, as a share of the longest time that is not to be exceeded.
     """
-    passed, times = np.cumsum(motion.times), task.times
-    return max(abs(float(passed[w - 1]) - time) for w, time in times.items()) / max(times.values())
+    passed = np.concatenate([[0.0], np.cumsum(motion.times)])
+    times = [(passed[w], early, late) for w, (early, late) in task.windows.items()]
+    times += [(time, 0.0, late) for time, late in zip(motion.times, task.durations[:, 1], strict=True)]
+    longest = max(abs(late) for _, _, late in times if np.isfinite(late))
+    return max(float(max(early - time, time - late, 0.0)) for time, early, late in times) / (longest or 1.0)
+
+
+def least_stretch(task: ConditionedProblem, motion: ArcMotion) -> float:
+    """Find the least factor on all segment times that meets the earliest and the least times.
+
+    Parameters
+    ----------
+    task : ConditionedProblem
+    motion : ArcMotion
+
+    Returns
+    -------
+    float
+        At least 1.
+    """
+    passed = np.concatenate([[0.0], np.cumsum(motion.times)])
+    factors = [early / passed[w] for w, (early, _) in task.windows.items()]
+    return float(max([1.0, *factors, *(task.durations[:, 0] / motion.times)]))

@@ -151,16 +151,16 @@ class MeshRefinement:
         begin = start = stop_and_go_motion(self.task)
         found = self.offer("stop and go", start)
         self.second = float(start.times.mean())
-        if not self.task.group(2) and not self.task.group(3):
+        if not self.task.group(2) and not self.task.group(3) and not self._is_open():
             self.converged = np.inf if found is None else found.verdict.seconds
             return
-        if self.task.times:
+        if self.task.hurried:
             start = self._nearest(start, mesh)
             if self.missed > _MISSED:
                 start = self._nearest_from_the_fastest(start, mesh)
             if self.missed > _MISSED:
                 return
-        elif self.task.ends.any():  # the closed form starts and ends at rest
+        elif not self.task.stretchable:  # the closed form starts and ends at rest
             self._states("stop and go, by Ruckig", start)
         arcs, before = mesh, np.inf
         for _ in range(ROUNDS):
@@ -169,12 +169,16 @@ class MeshRefinement:
             if tolerance >= 1e-3 or before - now <= 0.1 * tolerance * now:
                 break
             arcs, before = (3 * arcs) // 2, now
-        if self.task.times and not np.isfinite(self.converged):
+        if self.task.hurried and not np.isfinite(self.converged):
             self._round(begin, mesh, tolerance)
         if self.solved is None and self.solver == "ipopt" and self.task.stretchable:
             self._use("highs")
             self._round(start, mesh, tolerance)
         self._finish(tolerance)
+
+    def _is_open(self) -> bool:
+        """Whether the closed form leaves something to choose: places in zones, or times to be met."""
+        return bool(self.task.zones.any()) or self.task.hurried
 
     def run_timed(self, mesh: int) -> list[str]:
         """Search for the smoothest motion that takes the given time, or else for any.
@@ -239,8 +243,10 @@ class MeshRefinement:
 
     def _without_times(self, mesh: int) -> MeshRefinement:
         """The search for the fastest motion that need not meet the fixed times."""
-        free = replace(self.task.conditions, total=None, passage={})
-        task = ConditionedProblem(self.task.problem, free)
+        asked = self.task.conditions
+        least = {k: (low, np.inf) for k, (low, _) in asked.segment_times.items()}
+        free = replace(asked, total=None, passage={}, windows={}, segment_times=least)
+        task = ConditionedProblem(self.task.problem, free, self.task.vanishing)
         inner = MeshRefinement(task, self.solver, None, self.deadline)
         inner.run(mesh, 1e-3)
         return inner
@@ -250,8 +256,8 @@ class MeshRefinement:
         task, inner = self.task, self._without_times(mesh)
         if inner.best is not None:
             motion = inner.best.motion
-            factor = task.times[task.n_segments] / float(motion.times.sum())
-            if factor < 1.0 and len(task.times) == 1 and not inner.ended:
+            factor = task.windows[task.n_segments][0] / float(motion.times.sum())
+            if factor < 1.0 and len(task.windows) == 1 and not inner.ended:
                 self.nearest, self.missed = motion, missed(task, motion)
             found = self.offer("fastest, slowed down", motion.stretched(factor))
             if found is not None and inner.status(1e-3) is SearchStatus.OK:
@@ -275,7 +281,7 @@ class MeshRefinement:
         """Retime a motion between its waypoint states."""
         self._go_on()
         states = retime(self.task, motion)
-        if self.offer(name, states) is None and not self.task.times:
+        if self.offer(name, states) is None and not self.task.hurried:
             other = retime(self.task, motion, by_speed=True)
             if self.offer(name, other) is not None or isinstance(states, Refusal):
                 return other
@@ -345,5 +351,5 @@ class MeshRefinement:
             if found is not None:
                 self._remember(program, solution, found.verdict.seconds)
         program, solution, _ = self.solved
-        if not self.task.times:
+        if not self.task.hurried:
             self._states("waypoint states of the arcs", program.motion(solution.x))

@@ -62,9 +62,12 @@ class _Derivatives:
         ramped = task.group(1)
         if not ramped:
             return
-        shares = np.abs(task.displacements[:, ramped]) / task.limits[0][:, ramped]
+        speeds = task.intervals[0][:, ramped]
+        ways = task.displacements[:, ramped]
+        shares = np.maximum(ways / speeds[..., 1], ways / speeds[..., 0])
         mine = (np.arange(S), np.array(ramped)[shares.argmax(axis=1)])
         pull = np.maximum(-self.solution.bound_multipliers[block.part], 0.0)
+        pull = np.where(low * self.numbers.second > task.durations[:, 0], pull, 0.0)  # else a least time holds
         self.limits[(0, *mine)] -= pull * low * self.numbers.second
         with np.errstate(divide="ignore", invalid="ignore"):
             rate = pull * low * self.numbers.second / task.displacements[mine]
@@ -75,7 +78,8 @@ class _Derivatives:
         joints, arcs = self.numbers.groups[block.order], self.numbers.arcs_of(block.order)
         low, high = self.program.low[block.part], self.program.high[block.part]
         # states that are given have no limit
-        pull = np.where(high == low, 0.0, np.abs(self.solution.bound_multipliers[block.part])) * high
+        found = self.solution.bound_multipliers[block.part]
+        pull = np.where(high == low, 0.0, np.where(found > 0.0, found * high, found * low))
         per_segment = _by_segment(pull.reshape(-1, len(joints)), self.task.n_segments, arcs)
         self.limits[derivative][:, joints] -= per_segment * self.numbers.second
 
@@ -84,12 +88,14 @@ class _Derivatives:
         S, joints = self.task.n_segments, self.numbers.groups.get(block.order, [])
         found = self.solution.row_multipliers[block.part]
         if block.name == "velocity":
-            pull = np.abs(found) * self.program.row_high[block.part]
+            low, high = self.program.row_low[block.part], self.program.row_high[block.part]
+            pull = np.where(found > 0.0, found * high, found * low)
             pull = pull.reshape(S, -1, len(joints)).sum(axis=1)
             self.limits[0][:, joints] -= pull * self.numbers.second
-        elif block.name == "top":
+        elif block.name in ("top", "fall"):
             # d row / d log(limit) = limit h, with h of the solution
-            reach = _reach(self.program, self.solution, block.order).reshape(-1, len(joints))
+            side = int(block.name == "top")
+            reach = _reach(self.program, self.solution, block.order, side).reshape(-1, len(joints))
             pull = (np.abs(found.reshape(-1, len(joints))) * reach).reshape(S, -1, len(joints))
             self.limits[block.order - 1][:, joints] -= pull.sum(axis=1) * self.numbers.second
         elif block.name == "displacement":
@@ -145,11 +151,11 @@ def _by_segment(pull: Array, segments: int, arcs: int) -> Array:
     return np.asarray(found)
 
 
-def _reach(program: FreeFormNLP, solution: NLPSolution, order: int) -> Array:
-    """Limit times arc duration in the program's units, in the order of its rows."""
+def _reach(program: FreeFormNLP, solution: NLPSolution, order: int, side: int) -> Array:
+    """Limit upwards (1) or downwards (0) times arc duration in the program's units, in the order of its rows."""
     numbers, arcs = program.numbers, program.numbers.arcs_of(order)
     S, n = program.task.n_segments, len(numbers.groups[order])
-    top = numbers.top(order).reshape(S, n)
+    top = numbers.top(order, side).reshape(S, n)
     if not program.free:
         times = solution.x[program.equations.variable("times", 0)]
         h = np.repeat(times[:, None] / arcs, n, axis=1)[:, None]

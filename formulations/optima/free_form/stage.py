@@ -6,7 +6,7 @@ from dataclasses import dataclass
 
 from formulations.motion.trajectory import Trajectory
 from formulations.motion.verdict import Verdict, check
-from formulations.optima.free_form.faults import finite
+from formulations.optima.free_form.faults import finite, least_stretch
 from formulations.optima.free_form.nlp.arcs import ArcMotion
 from formulations.optima.free_form.nlp.conditioned import ConditionedProblem
 
@@ -60,6 +60,8 @@ def judged(task: ConditionedProblem, name: str, motion: ArcMotion) -> tuple[Veri
     reason : str
         Why it does.
     """
+    if task.stretchable and task.paced:
+        motion = motion.stretched(least_stretch(task, motion))
     for attempt in range(_STRETCHES):
         whole = finite(task, motion)
         if whole is None:

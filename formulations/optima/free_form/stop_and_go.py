@@ -18,42 +18,50 @@ from formulations.optima.free_form.nlp.conditioned import ConditionedProblem
 from formulations.problem.arrays import Array
 
 
-def stop_and_go_motion(task: ConditionedProblem) -> ArcMotion:
+def stop_and_go_motion(task: ConditionedProblem, places: Array | None = None) -> ArcMotion:
     """Move from rest to rest across every segment.
 
-    Times of conditions are met by slowing down; those that are too short are not met. End velocities
-    that are not zero are not met either: then the motion is a start for the solvers, not an answer.
+    Times of conditions are met by slowing down; those that are too short are not met. End states that
+    are given and not zero are not met either: then the motion is a start for the solvers, not an answer.
+    Where the acceleration limits of a joint differ between the directions, it uses the lower one.
 
     Parameters
     ----------
     task : ConditionedProblem
+    places : Array, shape (S + 1, dof) [rad], optional
+        Positions at the waypoints; the waypoints if left out.
 
     Returns
     -------
     ArcMotion
     """
-    least = least_times(task)
-    profiles = {}
+    at = task.waypoints if places is None else places
+    least = np.maximum(least_times(task, at), task.durations[:, 0])
+    profiles, limits = {}, {}
+    displacements = np.diff(at, axis=0)
     for order in (2, 3):
         for j in task.group(order):
-            d = task.displacements[:, j]
-            phases = s_curve(np.abs(d), task.limits[:, :, j], order)
+            d = displacements[:, j]
+            (velocity, acceleration), jerk = (both[:, j] for both in task.intervals), task.limits[2, :, j]
+            speed = np.where(d < 0.0, -velocity[:, 0], velocity[:, 1])
+            limits[j] = np.stack([speed, np.abs(acceleration).min(axis=1), jerk])
+            phases = s_curve(np.abs(d), limits[j], order)
             profiles[j] = phases
             least = np.maximum(least, phases.sum(axis=1))
-    scale = float(least.sum()) or max(task.times.values(), default=1.0)
+    scale = float(least.sum()) or max((early for early, _ in task.windows.values()), default=1.0) or 1.0
     times = _slowed(task, np.maximum(least, 1e-9 * scale))
     joints = {}
     for j, phases in profiles.items():
         own = phases.sum(axis=1)
         order = int(task.order[j])
         signs = np.array([1, 0, -1, 0, -1, 0, 1] if order == 3 else [1, 0, -1])
-        limit = task.limits[order - 1, :, j] * np.sign(task.displacements[:, j])
+        limit = limits[j][order - 1] * np.sign(displacements[:, j])
         still = own == 0.0
         factor = times / np.where(still, 1.0, own)
         h = np.where(still[:, None], times[:, None] / phases.shape[1], phases * factor[:, None])
         tops = np.where(still, 0.0, limit / factor**order)[:, None] * signs
         joints[j] = Arcs(order, h, tops, np.zeros((task.n_segments + 1, 2)))
-    return ArcMotion(times, joints)
+    return ArcMotion(times, joints, at)
 
 
 def s_curve(distance: Array, limits: Array, order: int) -> Array:
@@ -96,10 +104,10 @@ def s_curve(distance: Array, limits: Array, order: int) -> Array:
 
 
 def _slowed(task: ConditionedProblem, times: Array) -> Array:
-    """Segment times stretched to meet the fixed times, and not shrunk where these are too short."""
+    """Segment times stretched to meet earliest times, and not shrunk where the latest are too short."""
     found, before, earlier = times.copy(), 0, 0.0
-    for waypoint, time in sorted(task.times.items()):
+    for waypoint, (early, _) in sorted(task.windows.items()):
         block = slice(before, waypoint)
-        found[block] *= max((time - earlier) / found[block].sum(), 1.0)
-        before, earlier = waypoint, time
+        found[block] *= max((early - earlier) / found[block].sum(), 1.0)
+        before, earlier = waypoint, max(early, float(found[:waypoint].sum()))
     return found

@@ -202,7 +202,7 @@ def require_holdable(demands: Demands, dynamics: ArmDynamics) -> None:
     """
     problem = demands.problem
     fixed = demands.stops & ~np.ptp(demands.waypoints, axis=2).any(axis=1)
-    held = np.abs(dynamics.holding(problem.waypoints)) + dynamics.friction * 0.0
+    held = np.abs(dynamics.holding(problem.waypoints))
     over = held - dynamics.available
     for k in np.flatnonzero(fixed):
         joint = int((over[k] / dynamics.available).argmax())
@@ -216,7 +216,7 @@ def require_holdable(demands: Demands, dynamics: ArmDynamics) -> None:
 
 def torque_feasible(
     demands: Demands,
-    kinematic: Callable[[float | None], FreeForm],
+    kinematic: Callable[..., FreeForm],
     *,
     mesh: int = 7,
     tolerance: float = 1e-3,
@@ -230,7 +230,7 @@ def torque_feasible(
     demands : Demands
         With torque limits among their conditions.
     kinematic : callable
-        Finds the fastest motion without them, in at most so many seconds.
+        Finds the fastest motion without them; it is given ``time_limit``.
     mesh : int
         The program has twice as many steps per segment. With a ``tolerance`` below 1e-3 a second one has
         four times as many.
@@ -255,7 +255,7 @@ def torque_feasible(
     begun = time.perf_counter()
     search = TorqueSearch(demands, deadline, progress)
     left = deadline.left
-    first = kinematic(left / 2.0 if np.isfinite(left) else None)
+    first = kinematic(time_limit=left / 2.0 if np.isfinite(left) else None)
     if first.trajectory is None:
         return replace(first, conditions=demands.conditions)
     search._unslowed = first.trajectory.seconds

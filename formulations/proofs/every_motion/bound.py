@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import time
 from collections.abc import Callable
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, replace
 from typing import Any
 
 import numpy as np
@@ -15,15 +15,13 @@ from formulations.motion.trajectory import Trajectory
 from formulations.motion.verdict import TOLERANCE
 from formulations.problem.arrays import Array
 from formulations.problem.conditions import Conditions
+from formulations.problem.demands import Demands
 from formulations.problem.errors import InputError
 from formulations.problem.problem import Problem
 from formulations.problem.size import require_moderate
 from formulations.proofs.certificate import certificate_of
-from formulations.proofs.every_motion.conditioned import added_up, parts_of
 from formulations.proofs.every_motion.horizons import HorizonSearch
 from formulations.proofs.status import BoundStatus
-
-_BELOW = 1.0 - 1e-12  # more than the rounding of a sum of segments
 
 __all__ = ["BoundStatus", "FreeFormBound", "free_form_bound"]
 
@@ -115,7 +113,8 @@ def free_form_bound(
 ) -> FreeFormBound:
     """Prove a lower bound on the total time of all motions through the waypoints.
 
-    The bound holds for every motion from rest to rest that passes all waypoints in order, keeps the
+    The bound holds for every motion from rest to rest (unless the conditions say otherwise) that passes all
+    waypoints in order, keeps the conditions, keeps the
     velocity, acceleration and jerk limits exactly, and keeps the position limits to within
     ``problem.position_slack``. Where jerk is limited, the acceleration starts and ends at 0; the jerk
     need only be measurable. The splines of every family are such motions, so the bound holds for every
@@ -134,8 +133,8 @@ def free_form_bound(
     problem : Problem
         Waypoints and limits.
     conditions : Conditions, optional
-        The bound is then that of the motions that keep them: see ``conditioned``. Of motions that do not
-        start and end at rest only displacement at top speed is proved. There is no certificate.
+        In place of the problem's own; the bound is that of the motions that keep them. Torque limits are
+        not used, so that the bound holds with them and without.
     gap : float, default 1e-3
         Relative gap between bound and fastest known motion at which the search ends.
     upper : float, optional [s]
@@ -201,16 +200,19 @@ def free_form_bound(
     if upper is not None and not (upper >= 0.0 and np.isfinite(upper)):
         raise InputError(f"upper: {upper!r} s is not a time")
     require_moderate(problem)
+    # no inequality here knows of torques: the bound is that of all motions that keep the rest
+    asked_for = (problem.conditions if conditions is None else conditions).without_torque()
+    problem = replace(problem, conditions=problem.conditions.without_torque())
+    demands = Demands.of(problem, asked_for)
     deadline = Deadline(time_limit, stop)
-    if conditions is not None and not conditions.none:
-        return _conditioned(problem, conditions, gap, upper, deadline, started, progress)
-    search = HorizonSearch(problem, upper, progress)
+    search = HorizonSearch(demands, upper, progress)
     ending = search.run(gap, deadline)
     certificate = None
-    if record and problem.moving_joints:
+    if record and search.seconds > 0.0:
         left = max(2.0 * time_limit - (time.perf_counter() - started), 0.0)
         seconds, horizon, events = search.certify(Deadline(left, stop))
-        certificate = certificate_of(problem, seconds, events, horizon=horizon)
+        asked = None if search.plain else demands
+        certificate = certificate_of(problem, seconds, events, horizon=horizon, demands=asked)
     method = max(search.bounds, key=lambda key: search.bounds[key])
     return FreeFormBound(
         problem,
@@ -226,51 +228,4 @@ def free_form_bound(
         search.savings,
         certificate,
         ending.reason,
-    )
-
-
-def _conditioned(
-    problem: Problem,
-    conditions: Conditions,
-    gap: float,
-    upper: float | None,
-    deadline: Deadline,
-    started: float,
-    progress: Callable[[float, float | None], None] | None,
-) -> FreeFormBound:
-    """Bound each part between two stops by itself, and add the bounds up."""
-    conditions.validate(problem)
-    parts = parts_of(problem, conditions)
-    times, status, reasons = conditions.times(problem), BoundStatus.PROVED, []
-    bounds = [float(part.least.sum()) * _BELOW for part in parts]
-    rows = 0
-    for index, part in enumerate(parts):
-        if not part.rests:
-            status = BoundStatus.SIMPLE
-            reasons.append("with a velocity at an end, displacement at top speed is all that is proved")
-            continue
-        whole = upper if len(parts) == 1 else None
-        left = max((deadline.left - 1e-3) / (len(parts) - index), 0.0)
-        found = free_form_bound(part.problem, gap=gap, upper=whole, time_limit=left, stop=deadline.stop)
-        bounds[index], rows = max(bounds[index], found.seconds), max(rows, found.rows)
-        if found.status is not BoundStatus.PROVED and status is BoundStatus.PROVED:
-            status = found.status
-            reasons += [found.reason] if found.reason else []
-        if progress is not None:
-            progress(added_up(parts, bounds, times), upper)
-    seconds = added_up(parts, bounds, times)
-    if upper is not None and upper <= seconds * (1.0 + gap):
-        status, reasons = BoundStatus.PROVED, []
-    elif status is BoundStatus.PROVED:
-        status = BoundStatus.TIGHT  # of the parts; the conditions cost more than is proved
-    return FreeFormBound(
-        problem,
-        seconds,
-        "parts",
-        {"parts": seconds},
-        upper,
-        status,
-        time.perf_counter() - started,
-        rows,
-        reason="; ".join(dict.fromkeys(reasons)),
     )

@@ -16,6 +16,7 @@ import numpy as np
 
 from formulations.problem.arrays import Array
 from formulations.problem.problem import Problem
+from formulations.proofs.every_motion.relaxation.relaxed_problem import DOWN, RelaxedProblem, down
 from formulations.proofs.rest_to_rest import end_to_end_bound, rest_to_rest
 
 SAFE = 1e-12
@@ -59,6 +60,49 @@ def stop_and_go_durations(problem: Problem) -> Array:
         for row in np.abs(problem.displacements)
     ]
     return np.array(each) * (1.0 + SAFE)
+
+
+def bound_at_top_speed(relaxed: RelaxedProblem) -> float:
+    """Bound the time of a motion by displacement at top speed, and by the times that are asked for.
+
+    Parameters
+    ----------
+    relaxed : RelaxedProblem
+
+    Returns
+    -------
+    float
+        No motion takes less, waits included, rounded down [s].
+    """
+    least = np.maximum(relaxed.least, DOWN * relaxed.at_top_speed)
+    after = np.concatenate([np.cumsum(least[::-1])[::-1], [0.0]]) * down(len(least) + 1)
+    sooner = np.maximum(relaxed.arrivals[:, 0], 0.0)  # no motion passes a waypoint before
+    whole = float(np.where(after > 0.0, (sooner + after) * DOWN, sooner).max())
+    return (whole + relaxed.waits) * DOWN if relaxed.waits else whole
+
+
+def typical_durations(relaxed: RelaxedProblem) -> Array:
+    """Compute the time from rest to rest between the middles of the zones, about.
+
+    Parameters
+    ----------
+    relaxed : RelaxedProblem
+
+    Returns
+    -------
+    Array, shape (K,) [s]
+        A scale for the durations, and no bound.
+    """
+    jerk = np.where(relaxed.has_jerk, relaxed.jerk, np.inf)
+    limits = list(zip(relaxed.velocity, relaxed.acceleration, jerk, strict=True))
+    each = [
+        max(
+            (rest_to_rest(float(d), *map(float, of)) for d, of in zip(row, limits, strict=True)),
+            default=0.0,
+        )
+        for row in np.abs(relaxed.displacements)
+    ]
+    return np.maximum(each, np.maximum(relaxed.least, relaxed.at_top_speed))
 
 
 def _rest_to_rest(problem: Problem, j: int, distance: float) -> float:

@@ -10,13 +10,15 @@ units:
     ["w", joint, segment, end, corner, y]             (9)      ["v", joint, segment, end, sign, c, y]  (10)
     ["d", joint, segment, sign, s1 .. s6, y]          (1)      ["k", ...] the same without top speed
     ["a", joint, segment, sign, s1, s2, y]            (2)      ["r", joint, segment, end, sign, s1, s2, y]  (3)
+    ["b", waypoint, y] earliest, ["l", waypoint, y] latest (5)    ["m", joint, segment, end, corner, y] (11)
 
-Events: ["N", "T", segment, side, rows] or ["N", "a", waypoint, joint, side, rows] narrows a box from
+Events: ["N", "T", segment, side, rows] or ["N", "a" or "x", waypoint, joint, side, rows] narrows a box (of a
+duration, an acceleration, or a position in a zone, from the middle of the zone) from
 below (side 0) or from above (side 1), with effect after the next ["P"], which also narrows the
 accelerations by (13), or ["R"], which does not. ["F", rows] ends with the bound, ["E", rows] with the
 proof that no motion is left, as does an event that leaves a box empty. Segments and joints have the
-numbers of the problem, counted from 0. Segments in which nothing moves do not occur; the waypoint where a
-segment starts has the segment's number.
+numbers of the problem, counted from 0; a segment between two waypoints that are kept has the number of the
+first, and waypoints that are not kept do not occur.
 """
 
 from __future__ import annotations
@@ -27,9 +29,16 @@ import numpy as np
 
 from formulations.deadlines import Deadline
 from formulations.problem.arrays import Array
-from formulations.problem.problem import Problem
+from formulations.problem.demands import Demands
 from formulations.proofs.every_motion.relaxation.boxes import Boxes
-from formulations.proofs.every_motion.relaxation.cuts import PEAKS, PRODUCTS, STOPS, Cuts, Kind
+from formulations.proofs.every_motion.relaxation.cuts import (
+    PEAKS,
+    PRODUCTS,
+    STOPS,
+    ZONES,
+    Cuts,
+    Kind,
+)
 from formulations.proofs.every_motion.relaxation.linear_program import LinearProgram, LPSolution
 from formulations.proofs.every_motion.relaxation.propagation import propagate
 from formulations.proofs.every_motion.relaxation.relaxed_problem import DOWN, UP, RelaxedProblem
@@ -44,15 +53,15 @@ _MARGIN = 1e-10  # of the bound, for the checker's own boxes and rows
 
 
 def bound_with_events(
-    problem: Problem, horizon: float, target: float, cuts: Cuts, typical: Array, deadline: Deadline
+    demands: Demands, horizon: float, target: float, cuts: Cuts, typical: Array, deadline: Deadline
 ) -> tuple[float, list[Event]]:
     """Prove a bound and record the proof.
 
     Parameters
     ----------
-    problem : Problem
+    demands : Demands
     horizon : float [s]
-        The time H.
+        The time H, with all waits.
     target : float [s]
         The bound to stop at.
     cuts : Cuts
@@ -67,7 +76,7 @@ def bound_with_events(
         0 where nothing was proved.
     events : list
     """
-    relaxed = RelaxedProblem.of(problem, horizon)
+    relaxed = RelaxedProblem.under(demands, horizon)
     boxes = propagate(relaxed, _first_boxes(relaxed))
     units = typical[relaxed.segments]
     record = _Events()
@@ -81,7 +90,7 @@ def bound_with_events(
         solution = program.solve(frame.cost, rounds=_ROUNDS, tolerance=_TOLERANCE, deadline=deadline)
         if solution.empty:
             return horizon, [*narrowing, ["E", _rows_of(program, solution.multipliers)]]
-        bound = min(solution.bound, horizon) * (1.0 - _MARGIN)
+        bound = min(solution.bound + relaxed.waits, horizon) * (1.0 - _MARGIN)
         if bound > best[0]:
             best = bound, [*narrowing, ["F", _rows_of(program, solution.multipliers)]]
         if best[0] >= target or deadline.over:
@@ -115,7 +124,8 @@ class _Events:
 def _first_boxes(relaxed: RelaxedProblem) -> Boxes:
     """From displacement over top speed, from what the others leave, and from the limits."""
     least = np.maximum(DOWN * relaxed.at_top_speed, relaxed.least)
-    return Boxes.around(relaxed, least, relaxed.horizon * UP - (least.sum() - least))
+    most = np.minimum(relaxed.most, relaxed.horizon * UP - (least.sum() - least))
+    return Boxes.around(relaxed, least, most)
 
 
 def _narrowed(frame: Frame, column: int) -> tuple[Event, float]:
@@ -123,9 +133,15 @@ def _narrowed(frame: Frame, column: int) -> tuple[Event, float]:
     relaxed = frame.relaxed
     if column < frame.K:
         return ["N", "T", int(relaxed.segments[column])], float(frame.typical[column])
-    waypoint, joint = np.argwhere(frame.a == column)[0].tolist()
-    at = relaxed.segments[waypoint] if waypoint < frame.K else relaxed.segments[-1] + 1
-    return ["N", "a", int(at), int(relaxed.joints[joint])], float(relaxed.acceleration[joint])
+    for name, columns, units in (
+        ("a", frame.a, np.broadcast_to(relaxed.acceleration, frame.a.shape)),
+        ("x", frame.e, relaxed.zones),
+    ):
+        if (columns == column).any():
+            waypoint, joint = np.argwhere(columns == column)[0].tolist()
+            at = int(relaxed.waypoints[waypoint])
+            return ["N", name, at, int(relaxed.joints[joint])], float(units[waypoint, joint])
+    raise ValueError(f"column {column} is of no variable that is narrowed")
 
 
 def _rows_of(program: LinearProgram, multipliers: Array) -> list[Event]:
@@ -138,6 +154,10 @@ def _rows_of(program: LinearProgram, multipliers: Array) -> list[Event]:
         rows.append(["h", _hex(y[0] / relaxed.horizon)])
     secants = np.flatnonzero(y[1 : frame.K + 1]).tolist()
     rows += [["s", int(relaxed.segments[k]), _hex(y[k + 1] * unit[k])] for k in secants]
+    of_sums = y[frame.K + 1 : program.n_fixed].tolist()
+    for (waypoint, side), value in zip(frame.bounded_sums, of_sums, strict=True):
+        if value:
+            rows.append(["l" if side else "b", int(relaxed.waypoints[waypoint]), _hex(value)])
     of_cuts = y[program.n_fixed :]
     places = frame.place(cuts) * unit[cuts.segment]
     for i in np.flatnonzero(of_cuts).tolist():
@@ -152,6 +172,11 @@ def _rows_of(program: LinearProgram, multipliers: Array) -> list[Event]:
         elif kind in PRODUCTS:
             by_both = _hex(value / (unit[k] * float(relaxed.acceleration[j])))
             rows.append(["w", joint, segment, kind.end, int(cuts.at[i, 0]), by_both])
+        elif kind in ZONES:
+            zone = float(relaxed.zones[k + kind.end, j])
+            rows.append(
+                ["m", joint, segment, kind.end, int(cuts.at[i, 0]), _hex(value * unit[k] / zone)]
+            )
         elif kind in PEAKS:
             rows.append(["v", joint, segment, kind.end, sign, at[0], by_speed])
         elif kind in STOPS:

@@ -17,15 +17,20 @@ from formulations.deadlines import Deadline
 from formulations.motion.trajectory import Trajectory
 from formulations.motion.verdict import check
 from formulations.problem.arrays import Array
-from formulations.problem.problem import Problem
+from formulations.problem.demands import Demands
 from formulations.proofs.displacement import displacement_bound
 from formulations.proofs.every_motion.attaining_motion.durations import descend
 from formulations.proofs.every_motion.attaining_motion.motion import connect
 from formulations.proofs.every_motion.attaining_motion.states import find_states
-from formulations.proofs.every_motion.closed_forms import least_durations, stop_and_go_durations
+from formulations.proofs.every_motion.closed_forms import (
+    bound_at_top_speed,
+    least_durations,
+    stop_and_go_durations,
+    typical_durations,
+)
 from formulations.proofs.every_motion.events import bound_with_events
 from formulations.proofs.every_motion.prices import price_limits
-from formulations.proofs.every_motion.relaxation.boxes import Boxes
+from formulations.proofs.every_motion.relaxation.boxes import Boxes, clipped
 from formulations.proofs.every_motion.relaxation.cuts import Cuts, Kind
 from formulations.proofs.every_motion.relaxation.linear_program import (
     LinearProgram,
@@ -47,6 +52,10 @@ _TANGENTS = 4  # for each duration to begin with
 _LOOSER = 1e-2  # durations to begin with are looser, so that rows and not boxes carry the bound
 _STRETCHES = (2e-7, 1e-6, 1e-5, 1e-4, 1e-3, 1e-2)  # of durations, tried for a motion
 _NEAR = 1e-2  # of the bound: how far above it the horizon of its certificate is at most
+_GUESS = 2.0  # times from rest to rest: how long a motion under conditions may be, to begin with
+_FARTHEST = 1e3  # displacements at top speed: where the search ends if no motion is left
+_TINY = 1e-9  # s, the least unit of a duration
+_BELOW = 1.0 - 2.0**-50  # more than the rounding of one sum
 _STALLED = 0.05  # of the way to the horizon: a step that gains less is no progress
 
 
@@ -78,7 +87,7 @@ class HorizonSearch:
 
     def __init__(
         self,
-        problem: Problem,
+        demands: Demands,
         upper: float | None,
         progress: Callable[[float, float | None], None] | None,
     ) -> None:
@@ -86,22 +95,32 @@ class HorizonSearch:
 
         Parameters
         ----------
-        problem : Problem
+        demands : Demands
         upper : float or None [s]
             Time of a verified motion, if one is known.
         progress : callable or None
             Called as ``progress(bound, upper)`` whenever the relaxation proved a bound.
         """
-        self.problem, self.upper, self.progress = problem, upper, progress
-        self.bounds = {
-            "displacement": displacement_bound(problem),
-            "ruckig_end_to_end": end_to_end_bound(problem),
-            "segment": float(least_durations(problem).sum()) * (1.0 - 1e-15 * problem.n_segments),
-        }
-        self.stop_and_go = stop_and_go_durations(problem)
-        self.typical = self.stop_and_go.copy()
+        self.demands, self.upper, self.progress = demands, upper, progress
+        self.problem = problem = demands.problem
+        self.plain = problem.plain and demands.conditions.none
+        if self.plain:
+            self.bounds = {
+                "displacement": displacement_bound(problem),
+                "ruckig_end_to_end": end_to_end_bound(problem),
+                "segment": float(least_durations(problem).sum()) * (1.0 - 1e-15 * problem.n_segments),
+            }
+            self.typical = stop_and_go_durations(problem)
+            self.slowest = float(self.typical.sum())
+        else:
+            relaxed = RelaxedProblem.under(demands, np.inf)
+            self.bounds = {"displacement": bound_at_top_speed(relaxed)}
+            self.typical = np.ones(problem.n_segments)
+            self.typical[relaxed.segments] = np.maximum(typical_durations(relaxed), _TINY)
+            whole = float(self.typical[relaxed.segments].sum()) + relaxed.waits
+            self.slowest = _GUESS * max(whole, self.seconds)  # to begin with
         self.cuts = Cuts.none()
-        self.looking = upper is None  # whether the search for a motion is worth its time
+        self.looking = upper is None and self.plain  # whether the search for a motion is worth its time
         self.attained = np.inf  # by a motion that may leave the position limits [s]
         self.motion: Trajectory | None = None
         self.durations: Array | None = None
@@ -115,9 +134,10 @@ class HorizonSearch:
 
     @property
     def known(self) -> float:
-        """Time of the fastest motion known [s], at most that of stop and go."""
-        slowest = float(self.stop_and_go.sum())
-        return slowest if self.upper is None else min(self.upper, slowest)
+        """Time of the fastest motion known [s], at most that of stop and go; under conditions a guess."""
+        if not self.plain:
+            return self.slowest if self.upper is None else self.upper
+        return self.slowest if self.upper is None else min(self.upper, self.slowest)
 
     def run(self, gap: float, deadline: Deadline) -> Ending:
         """Search until the gap is reached, the time is over, or nothing proves more.
@@ -132,12 +152,20 @@ class HorizonSearch:
         -------
         Ending
         """
-        if not self.problem.moving_joints:
+        if self.plain and not self.problem.moving_joints:
             self.upper = 0.0
             return Ending(BoundStatus.PROVED)
         if not self.seconds > 0.0:
-            return Ending(BoundStatus.SIMPLE, "the displacements are too small for floats")
-        if not len(RelaxedProblem.of(self.problem, self.known).joints):
+            too_small = "the displacements are too small for floats"
+            return Ending(
+                BoundStatus.SIMPLE, too_small if self.plain else "nothing forces it to take time"
+            )
+        relaxed = RelaxedProblem.under(self.demands, self.known)
+        if not (np.maximum(relaxed.least, relaxed.at_top_speed) > 0.0).all():
+            return Ending(BoundStatus.SIMPLE, "its only two waypoints can coincide")
+        if relaxed.cyclic and len(relaxed.least) < 2:
+            return Ending(BoundStatus.SIMPLE, "all waypoints of the cycle can coincide")
+        if not len(relaxed.joints):
             return Ending(
                 BoundStatus.SIMPLE, "with a velocity limit alone, displacement is the infimum itself"
             )
@@ -159,8 +187,13 @@ class HorizonSearch:
                 continue
             if self.seconds >= horizon:
                 boxes = None
-                if horizon >= self.known:
+                if horizon >= self.known and (self.plain or self.upper is not None):
                     return Ending(BoundStatus.TIGHT)
+                if horizon >= self.known:  # the guess was too short
+                    self.slowest *= 2.0
+                    if self.slowest > _FARTHEST * self.bounds["displacement"]:
+                        return Ending(BoundStatus.SIMPLE, f"no motion was left up to {horizon:.4g} s")
+                    ahead = np.inf
                 continue
             ahead = min(ahead, horizon / self.seconds - 1.0) / 3.0
             if ahead < gap:
@@ -170,7 +203,7 @@ class HorizonSearch:
         self, horizon: float, boxes: Boxes | None, gap: float, deadline: Deadline
     ) -> tuple[Ending | None, Boxes]:
         """Bound all motions of at most ``horizon`` seconds, in narrower and narrower boxes."""
-        relaxed = RelaxedProblem.of(self.problem, horizon)
+        relaxed = RelaxedProblem.under(self.demands, horizon)
         boxes = self._boxes(relaxed, boxes)
         typical = self.typical[relaxed.segments]
         tolerance = min(max(1e-3 * gap, 1e-9), 1e-7)
@@ -211,17 +244,20 @@ class HorizonSearch:
 
     def _boxes(self, relaxed: RelaxedProblem, boxes: Boxes | None) -> Boxes:
         """The first boxes for a horizon: from those of a longer one, if there are any."""
-        most = relaxed.acceleration[:, None]
         if boxes is None:
-            least = np.maximum(least_durations(self.problem)[relaxed.segments], relaxed.at_top_speed)
+            least = relaxed.at_top_speed
+            if self.plain:
+                least = np.maximum(least_durations(self.problem)[relaxed.segments], least)
             least = np.maximum(least * (1.0 - _LOOSER), relaxed.least)
-            boxes = Boxes.around(relaxed, least, np.full_like(least, np.inf))
+            boxes = Boxes.around(relaxed, least, relaxed.most)
         durations = boxes.durations.copy()
         # no duration is longer than what the least durations of the others leave
         others = durations[:, 0].sum() - durations[:, 0]
         durations[:, 1] = np.minimum(durations[:, 1], relaxed.horizon * (1.0 + 1e-12) - others)
         empty = bool((durations[:, 0] > durations[:, 1]).any())
-        return propagate(relaxed, Boxes(durations, np.clip(boxes.accelerations, -most, most), empty))
+        return propagate(
+            relaxed, clipped(relaxed, Boxes(durations, boxes.accelerations, boxes.offsets, empty))
+        )
 
     def certify(self, deadline: Deadline) -> tuple[float, float, list[list[Any]]]:
         """Prove a bound near the best one again, so that a checker can follow it.
@@ -240,17 +276,22 @@ class HorizonSearch:
         """
         least = self.bounds["displacement"] * (1.0 - 1e-12)
         horizon = min(self.known * (1.0 + _BEYOND), self.seconds * (1.0 + _NEAR))
-        joints = RelaxedProblem.of(self.problem, horizon).joints
+        joints = RelaxedProblem.under(self.demands, horizon).joints
         if not len(joints) or not self.seconds > least * (1.0 + 1e-9):
-            return least, least, []
+            return least, least, self._without_rows
         with np.errstate(over="ignore", divide="ignore", invalid="ignore"):
             bound, events = bound_with_events(
-                self.problem, horizon, self.seconds * (1.0 - 1e-8), self.cuts, self.typical, deadline
+                self.demands, horizon, self.seconds * (1.0 - 1e-8), self.cuts, self.typical, deadline
             )
         if not bound > least:
-            return least, least, []
+            return least, least, self._without_rows
         self._improve(bound)  # a near horizon may prove more
         return bound, horizon, events
+
+    @property
+    def _without_rows(self) -> list[list[Any]]:
+        """Events that prove displacement at top speed: of a plain problem the checker does so by itself."""
+        return [] if self.plain else [["P"], ["F", []]]
 
     def _met(self, gap: float) -> bool:
         return self.upper is not None and self.upper <= self.seconds * (1.0 + gap)
@@ -264,18 +305,22 @@ class HorizonSearch:
         """Keep the bound of a solve and, if it is the best one, its durations and savings."""
         relaxed, problem = program.frame.relaxed, self.problem
         bound = min(solution.bound, relaxed.horizon)
+        if relaxed.waits:
+            bound = (bound + relaxed.waits) * _BELOW
         self.rows = len(program.rows)
         if bound > self.bounds.get("relaxation", 0.0):
             self.durations = np.zeros(problem.n_segments)
             self.durations[relaxed.segments] = solution.x[program.frame.T] * program.frame.typical
             self.savings = np.zeros((3, problem.n_segments, problem.dof))
             self.savings[:, relaxed.segments[:, None], relaxed.joints] = price_limits(
-                problem, program, solution
+                self.demands, program, solution
             )
         self._improve(bound)
 
     def _look_for_motion(self, durations: Array, cuts: Cuts, gap: float, deadline: Deadline) -> None:
         """Try for a motion with the relaxation's durations, slightly stretched; then with durations nearby."""
+        if not self.plain:
+            return
         for local in (False, True):
             if local:
                 if not self.looking:
@@ -296,14 +341,17 @@ class HorizonSearch:
         states = find_states(self.problem, durations, cuts, deadline)
         if states is None:
             return False
-        self.attained = min(self.attained, total)
         motion = connect(self.problem, durations, states)
         if motion is None:
+            self.attained = min(self.attained, total)
             return False
         verdict = check(self.problem, motion)
+        done = verdict.feasible or not verdict.position_kept  # no stretch changes the positions
+        if done:
+            self.attained = min(self.attained, total)
         if verdict.feasible:
             self.motion, self.upper = motion, verdict.seconds
-        return verdict.feasible or not verdict.position_kept  # no stretch changes the positions
+        return done
 
     def _tight(self, gap: float) -> bool:
         """Whether a motion, perhaps outside the position limits, shows that the relaxation proves no more."""

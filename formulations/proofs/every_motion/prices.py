@@ -13,7 +13,7 @@ from __future__ import annotations
 import numpy as np
 
 from formulations.problem.arrays import Array
-from formulations.problem.problem import Problem
+from formulations.problem.demands import Demands
 from formulations.proofs.every_motion.relaxation.cuts import (
     DISTANCES,
     PEAKS,
@@ -24,6 +24,7 @@ from formulations.proofs.every_motion.relaxation.cuts import (
 )
 from formulations.proofs.every_motion.relaxation.linear_program import LinearProgram, LPSolution
 from formulations.proofs.every_motion.relaxation.reach import (
+    arc_coefficients,
     distance_coefficients,
     speed_coefficients,
     stop_coefficients,
@@ -31,7 +32,7 @@ from formulations.proofs.every_motion.relaxation.reach import (
 from formulations.proofs.every_motion.relaxation.rows import Frame
 
 
-def price_limits(problem: Problem, program: LinearProgram, solution: LPSolution) -> Array:
+def price_limits(demands: Demands, program: LinearProgram, solution: LPSolution) -> Array:
     """Compute the seconds saved per relative increase of each limit.
 
     Half of what a limit at a waypoint saves is attributed to each of the two segments that meet there.
@@ -39,7 +40,7 @@ def price_limits(problem: Problem, program: LinearProgram, solution: LPSolution)
 
     Parameters
     ----------
-    problem : Problem
+    demands : Demands
     program : LinearProgram
     solution : LPSolution
         Of the total time.
@@ -59,17 +60,21 @@ def price_limits(problem: Problem, program: LinearProgram, solution: LPSolution)
             np.add.at(found[quantity], (cuts.segment, cuts.joint), y[which] * share)
     reduced = frame.cost + program.rows.matrix.T @ np.maximum(solution.multipliers, 0.0)
     for quantity, columns in ((0, frame.v), (1, frame.a)):
-        bound = np.abs(x[columns]) > 1.0 - 1e-9
+        low, high = np.moveaxis(frame.box[columns], -1, 0)
+        at = np.where(x[columns] > 0.0, high - x[columns], x[columns] - low) < 1e-9
+        bound = at & (np.minimum(-low, high) > 0.0)  # one that is given has no limit of its own
         price = np.where(bound, -reduced[columns] * x[columns], 0.0)[1:-1]
         found[quantity, :-1] += 0.5 * price
         found[quantity, 1:] += 0.5 * price
-    return _of_own_limits(problem, frame, found)
+    return _of_own_limits(demands, frame, found)
 
 
-def _of_own_limits(problem: Problem, frame: Frame, found: Array) -> Array:
-    """Savings by the problem's own limits, from those by the limits of ``RelaxedProblem.of``."""
-    relaxed = frame.relaxed
-    V, A, J = problem.limits.derivatives[:, relaxed.joints]
+def _of_own_limits(demands: Demands, frame: Frame, found: Array) -> Array:
+    """Savings by the problem's own limits, from those by the limits that follow (``implied_limits``)."""
+    relaxed, joints = frame.relaxed, frame.relaxed.joints
+    V = np.abs(demands.velocity[:, joints]).max(axis=(0, 2))
+    A = np.abs(demands.acceleration[:, joints]).max(axis=(0, 2))
+    J = demands.jerk[:, joints].max(axis=0)
     own = relaxed.acceleration >= A
     by_both = ~own & np.isclose(relaxed.acceleration, np.sqrt(2.0 * J * V), rtol=1e-12)
     shared = np.where(by_both, 0.5 * found[1], 0.0)
@@ -80,25 +85,32 @@ def _of_own_limits(problem: Problem, frame: Frame, found: Array) -> Array:
 def _derivatives(frame: Frame, kind: Kind, cuts: Cuts, x: Array) -> tuple[Array, Array, Array]:
     """Minus the derivative of each row by the logarithm of the three limits, at x: each (m,)."""
     k, j = cuts.segment, cuts.joint
-    none = np.zeros(len(k))
+    none, with_it = np.zeros(len(k)), (cuts.sign > 0.0).astype(np.intp)
     if kind in (*DISTANCES, *STOPS, Kind.SPEED):
-        A, J = frame.ramp[k, j] * x[frame.T[k]], frame.bend[k, j] * x[frame.square[k]]
-        c_V, c_A, c_J = _limit_coefficients(kind, cuts.at)
-        return c_V, c_A * A, c_J * J
+        A, against = (frame.ramps[k, j, side] * x[frame.T[k]] for side in (with_it, 1 - with_it))
+        if kind == Kind.STOP_AT_END:  # with time turned the joint brakes the other way
+            A, against = against, A
+        c_V, c_A, c_against, c_J = _limit_coefficients(kind, cuts.at)
+        J = frame.bend[k, j] * x[frame.square[k]]
+        return c_V * frame.top[k, j, with_it], c_A * A + c_against * against, c_J * J
     if kind in PEAKS:
-        return none + 1.0, none, 1.0 - cuts.sign * x[frame.v[k + kind.end, j]]
+        top = frame.top[:, j, with_it].max(axis=0)
+        return top, none, top - cuts.sign * x[frame.v[k + kind.end, j]]
     if kind in PRODUCTS:
         t, e, side = frame.corner(cuts, kind.end)
         return none, np.where(np.abs(e) >= 1.0, side * e * (t - x[frame.T[k]]), 0.0), none
     return none, none, none
 
 
-def _limit_coefficients(kind: Kind, at: Array) -> tuple[Array, Array, Array]:
-    """Coefficients of V, A T and J T^2 in (1), (2) or (3), each (m,)."""
+def _limit_coefficients(kind: Kind, at: Array) -> tuple[Array, Array, Array, Array]:
+    """Coefficients of V, of A T with and against the motion, and of J T^2 in (1), (2) or (3), each (m,)."""
     if kind in DISTANCES:
-        c_V, c_A, c_J = distance_coefficients(at, kind == Kind.CRUISE)[4:]
-    else:
-        of = speed_coefficients if kind == Kind.SPEED else stop_coefficients
-        c_A, c_J = of(at[:, :2])[2:]
-        c_V = np.zeros_like(c_A)
-    return c_V, c_A, c_J
+        cruises = kind == Kind.CRUISE
+        coefficients = distance_coefficients(at, cruises)
+        return coefficients[4], *arc_coefficients(at, cruises), coefficients[6]
+    none = np.zeros(len(at))
+    if kind == Kind.SPEED:
+        c_A, c_J = speed_coefficients(at[:, :2])[2:]
+        return none, c_A, none, c_J
+    c_A, c_J = stop_coefficients(at[:, :2])[2:]
+    return none, none, c_A, c_J

@@ -15,7 +15,7 @@ import numpy as np
 
 from compare.check_certificate.answers import BadInput, Refused, need
 from compare.check_certificate.balls import R
-from compare.check_certificate.claim import MOST_SEGMENTS, Claim, index, items, real
+from compare.check_certificate.claim import MOST_SEGMENTS, Claim
 from compare.check_certificate.families.b_spline.conditions import (
     SplineLimits,
     SumRows,
@@ -25,6 +25,7 @@ from compare.check_certificate.families.b_spline.conditions import (
 from compare.check_certificate.families.b_spline.knots import Forms
 from compare.check_certificate.families.b_spline.taylor import MOST_VARIABLES
 from compare.check_certificate.families.b_spline.travel import Travel, cut
+from compare.check_certificate.reading import index, items, real
 
 _CUTS = 2_000  # boxes whose cuts are verified at once
 _FLOATS = 4_000_000  # in the models that are made at once

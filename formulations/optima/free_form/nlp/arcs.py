@@ -166,10 +166,18 @@ class ArcMotion:
     times : Array, shape (S,) [s]
         Segment times.
     joints : dict of int to Arcs
+    places : Array, shape (S + 1, dof) [rad]
+        Positions of all joints at the waypoints.
     """
 
     times: Array
     joints: dict[int, Arcs]
+    places: Array
+
+    @property
+    def displacements(self) -> Array:
+        """Displacement of each segment, (S, dof) [rad]."""
+        return np.diff(self.places, axis=0)
 
     def stretched(self, factor: float) -> ArcMotion:
         """Stretch time: the same path, every time multiplied by ``factor``.
@@ -182,8 +190,36 @@ class ArcMotion:
         -------
         ArcMotion
         """
-        return ArcMotion(self.times * factor, {j: a.stretched(factor) for j, a in self.joints.items()})
+        return ArcMotion(
+            self.times * factor, {j: a.stretched(factor) for j, a in self.joints.items()}, self.places
+        )
 
     def split(self) -> ArcMotion:
         """The same motion on twice as many arcs."""
-        return ArcMotion(self.times, {j: a.split() for j, a in self.joints.items()})
+        return replace(self, joints={j: a.split() for j, a in self.joints.items()})
+
+    def with_waits(self, waits: Array) -> ArcMotion:
+        """The same motion that stands still at waypoints, for which each wait becomes a segment.
+
+        Parameters
+        ----------
+        waits : Array, shape (S + 1,) [s]
+            How long at each waypoint, where the motion is at rest; 0 at both ends.
+
+        Returns
+        -------
+        ArcMotion
+        """
+        at = np.flatnonzero(waits)
+        joints = {}
+        for j, arcs in self.joints.items():
+            still = np.repeat(waits[at, None] / arcs.durations.shape[1], arcs.durations.shape[1], axis=1)
+            joints[j] = replace(
+                arcs,
+                durations=np.insert(arcs.durations, at, still, axis=0),
+                tops=np.insert(arcs.tops, at, 0.0, axis=0),
+                states=np.insert(arcs.states, at, arcs.states[at], axis=0),
+            )
+        return ArcMotion(
+            np.insert(self.times, at, waits[at]), joints, np.insert(self.places, at, self.places[at], axis=0)
+        )

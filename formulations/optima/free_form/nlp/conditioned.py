@@ -1,4 +1,4 @@
-"""The problem that the solvers see: segments that take time, joints that move, limits in force."""
+"""The problem that the solvers see: segments that take time, joints that move, demands in force."""
 
 from __future__ import annotations
 
@@ -7,10 +7,13 @@ from functools import cached_property
 
 import numpy as np
 
-from formulations.problem.arrays import Array, Indices
+from formulations.optima.free_form.nlp.passed_at_once import passed_at_once
+from formulations.problem.arrays import Array, Indices, Truths
 from formulations.problem.conditions import Conditions
+from formulations.problem.demands import Demands
 from formulations.problem.problem import Problem
 
+POSITION_MARGIN = 1e-9  # rad per (1 + |waypoints|) that solutions stay inside the position limits
 _MARGIN = 1e-7  # limits are lowered by this share where a motion cannot be slowed down
 
 
@@ -18,41 +21,31 @@ _MARGIN = 1e-7  # limits are lowered by this share where a motion cannot be slow
 class ConditionedProblem:
     """A problem under conditions, without the segments and joints that cannot matter.
 
-    Equal consecutive waypoints count as one waypoint, unless the conditions set time between them.
-    Joints that never move are left out.
+    Consecutive waypoints that can be passed at one time count as one waypoint. Joints that need not
+    move are left out.
 
     Attributes
     ----------
     problem : Problem
     conditions : Conditions
+    vanishing : frozenset of int
+        Segments of the problem that take no time although they could: their zones overlap, and a motion
+        found so far passes both waypoints at once.
     """
 
     problem: Problem
     conditions: Conditions
+    vanishing: frozenset[int] = frozenset()
+
+    @cached_property
+    def demands(self) -> Demands:
+        """All that is asked for, per waypoint and segment of the problem."""
+        return Demands.of(self.problem, self.conditions)
 
     @cached_property
     def segments(self) -> Indices:
         """Indices of the segments of the problem that are kept, (S,)."""
-        problem, asked = self.problem, self.conditions
-        moves = np.abs(problem.displacements).max(axis=1) > 0.0
-        keep = moves.copy()
-        times = {0: 0.0, **asked.times(problem)}
-        rest = not asked.end_velocities(problem).any()
-        k = 0
-        while k < len(moves):
-            if moves[k]:
-                k += 1
-                continue
-            end = k
-            while end < len(moves) and not moves[end]:
-                end += 1
-            group = range(k, end + 1)  # waypoints k..end are equal
-            fixed = sorted({times[w] for w in group if w in times})
-            bends = not rest and any(w in asked.stops for w in group)
-            if len(fixed) > 1 or bends or (not rest and not moves.any()):
-                keep[k:end] = [not (w in times and times[w] == times.get(w + 1)) for w in range(k, end)]
-            k = end
-        return np.flatnonzero(keep)
+        return np.flatnonzero(~passed_at_once(self.demands, self.vanishing))
 
     @cached_property
     def waypoint_of(self) -> Indices:
@@ -66,11 +59,48 @@ class ConditionedProblem:
         """Number of segments kept, S."""
         return len(self.segments)
 
+    @property
+    def margin(self) -> float:
+        """How far solutions stay inside the position limits [rad]."""
+        return POSITION_MARGIN * (1.0 + float(np.abs(self.problem.waypoints).max()))
+
+    @cached_property
+    def boxes(self) -> Array:
+        """Least and greatest position at the waypoints kept, (S + 1, dof, 2) [rad].
+
+        Zones are drawn in by the margin where they reach a position limit.
+        """
+        whole, at, n = self.demands.waypoints, self.waypoint_of, self.n_segments
+        low = np.full((n + 1, self.problem.dof), -np.inf)
+        high = -low
+        np.maximum.at(low, at, whole[..., 0])
+        np.minimum.at(high, at, whole[..., 1])
+        if not n:
+            return np.stack([low, high], axis=-1)
+        limits, sides = self.position_bounds, (np.r_[0, :n], np.r_[:n, n - 1])
+        lowest = np.maximum(*(limits[side, :, 0] for side in sides)) + self.margin
+        highest = np.minimum(*(limits[side, :, 1] for side in sides)) - self.margin
+        wide = high - low > 4.0 * self.margin
+        return np.stack(
+            [
+                np.where(wide, np.maximum(low, lowest), low),
+                np.where(wide, np.minimum(high, highest), high),
+            ],
+            axis=-1,
+        )
+
+    @cached_property
+    def zones(self) -> Truths:
+        """Where the position of a moving joint at a waypoint kept is free within a box, (S + 1, dof)."""
+        found = self.boxes[..., 1] > self.boxes[..., 0]
+        found[:, [j for j in range(self.problem.dof) if j not in self.moving]] = False
+        return np.asarray(found)
+
     @cached_property
     def waypoints(self) -> Array:
-        """Waypoints kept, (S + 1, dof) [rad]."""
+        """Waypoints kept, (S + 1, dof) [rad]; within their zones."""
         _, first = np.unique(self.waypoint_of, return_index=True)
-        return self.problem.waypoints[first]
+        return np.clip(self.problem.waypoints[first], self.boxes[..., 0], self.boxes[..., 1])
 
     @property
     def displacements(self) -> Array:
@@ -85,9 +115,9 @@ class ConditionedProblem:
 
     @cached_property
     def moving(self) -> list[int]:
-        """Joints that move at all."""
+        """Joints that have to move."""
         moves = np.ptp(self.problem.waypoints, axis=0) > 0.0
-        moves |= self.ends.any(axis=0)
+        moves |= np.nan_to_num(self._given).any(axis=(0, 1))
         return [int(j) for j in np.flatnonzero(moves)]
 
     def group(self, order: int) -> list[int]:
@@ -105,53 +135,115 @@ class ConditionedProblem:
         return [j for j in self.moving if self.order[j] == order]
 
     @cached_property
-    def limits(self) -> Array:
-        """Limits in force, (3, S, dof), with an acceleration limit wherever jerk is limited.
+    def _given(self) -> Array:
+        """Velocities and accelerations given at both ends, (2 orders, 2 ends, dof); NaN where they are free."""
+        ends = np.stack([self.demands.end_velocity, self.demands.end_acceleration])
+        found = np.where(ends[..., 0] == ends[..., 1], ends[..., 0], np.nan)
+        for end, waypoint in ((0, 0), (1, self.n_segments)):
+            if self.demands.stops[self.waypoint_of == waypoint].any():
+                found[:, end] = 0.0
+        return found
 
-        While the acceleration rises from zero to A at the jerk limit and falls again, the velocity
-        changes by A^2 / J. It cannot change by more than 2 V, hence A <= sqrt(2 V J).
+    @property
+    def ends(self) -> Array:
+        """Velocities given at the start and the end, (2, dof) [rad/s]; NaN where they are free."""
+        return np.asarray(self._given[0])
+
+    @property
+    def end_accelerations(self) -> Array:
+        """Accelerations given at the start and the end, (2, dof) [rad/s^2]; NaN where they are free."""
+        return np.asarray(self._given[1])
+
+    @cached_property
+    def intervals(self) -> tuple[Array, Array]:
+        """Least and greatest velocity and acceleration, (S, dof, 2) each [rad/s, rad/s^2].
+
+        There is an acceleration limit wherever jerk is limited. While the acceleration rises from zero to
+        A at the jerk limit and falls again, the velocity changes by A^2 / J. It cannot change by more than
+        the width W of its interval, hence A <= sqrt(W J); at an end with an acceleration it falls only,
+        hence A <= sqrt(2 W J).
         """
-        found = self.conditions.derivatives(self.problem)[:, self.segments]
-        velocity, acceleration, jerk = found
-        implied = np.sqrt(2.0 * velocity.max(axis=0, initial=0.0) * jerk.max(axis=0, initial=0.0))
-        open_ended = np.isinf(acceleration) & np.isfinite(jerk)
-        found[1] = np.where(open_ended, implied, acceleration)
+        velocity, acceleration = (
+            values[self.segments] for values in (self.demands.velocity, self.demands.acceleration)
+        )
+        jerk = self.demands.jerk[self.segments].max(axis=0, initial=0.0)
+        width = velocity[..., 1].max(axis=0, initial=0.0) - velocity[..., 0].min(axis=0, initial=0.0)
+        steep = (self.end_accelerations != 0.0).any(axis=0)  # also where they are free
+        implied = np.sqrt(width * jerk * np.where(steep, 2.0, 1.0))[:, None] * np.array([-1.0, 1.0])
+        open_ended = np.isinf(acceleration) & np.isfinite(jerk)[:, None]
+        found = np.stack([velocity, np.where(open_ended, implied, acceleration)])
         if not self.stretchable:
             # slowing down cannot correct an excess within the solver's tolerance
             found *= 1.0 - _MARGIN
-            for k, given in ((0, 0), (-1, 1)):
-                found[0, k] = np.maximum(found[0, k], np.abs(self.ends[given]))
-        return found
+            for k in (0, -1):
+                found[:, k, :, 0] = np.fmin(found[:, k, :, 0], self._given[:, k])
+                found[:, k, :, 1] = np.fmax(found[:, k, :, 1], self._given[:, k])
+        return found[0], found[1]
+
+    @cached_property
+    def limits(self) -> Array:
+        """Greatest moduli of velocity, acceleration and jerk, (3, S, dof)."""
+        jerk = self.demands.jerk[self.segments]
+        if not self.stretchable:
+            jerk = jerk * (1.0 - _MARGIN)
+        return np.stack([*(np.abs(both).max(axis=2) for both in self.intervals), jerk])
 
     @cached_property
     def position_bounds(self) -> Array:
         """Position limits in force, (S, dof, 2) [rad]."""
-        return self.conditions.position_bounds(self.problem)[self.segments]
-
-    @cached_property
-    def ends(self) -> Array:
-        """Velocities at the start and the end, (2, dof) [rad/s]."""
-        return self.conditions.end_velocities(self.problem)
+        return np.asarray(self.demands.position[self.segments])
 
     @cached_property
     def stops(self) -> list[int]:
         """Inner waypoints kept at which the motion stands still."""
-        inner = {int(self.waypoint_of[w]) for w in self.conditions.stops}
+        inner = {int(w) for w in self.waypoint_of[self.demands.stops]}
         return sorted(inner - {0, self.n_segments})
 
     @cached_property
-    def times(self) -> dict[int, float]:
-        """Waypoints kept with a fixed time [s], that of the whole motion included."""
-        found = {int(self.waypoint_of[w]): t for w, t in self.conditions.times(self.problem).items()}
-        found.pop(0, None)
+    def waits(self) -> Array:
+        """How long the motion stands still at the waypoints kept, (S + 1,) [s]."""
+        return np.bincount(self.waypoint_of, weights=self.demands.waits, minlength=self.n_segments + 1)
+
+    @cached_property
+    def waited(self) -> Array:
+        """How long it has stood still before it arrives at the waypoints kept, (S + 1,) [s]."""
+        return np.concatenate([[0.0], np.cumsum(self.waits)[:-1]])
+
+    @cached_property
+    def durations(self) -> Array:
+        """Least and greatest time of the segments kept, (S, 2) [s]."""
+        return np.asarray(self.demands.durations[self.segments])
+
+    @cached_property
+    def windows(self) -> dict[int, tuple[float, float]]:
+        """Least and greatest sum of the segment times before a waypoint kept, where one is asked for [s]."""
+        found = {}
+        for waypoint in range(1, self.n_segments + 1):
+            mine = self.demands.passages[self.waypoint_of == waypoint]
+            low, high = float(mine[:, 0].max()), float(mine[:, 1].min())
+            if low > 0.0 or np.isfinite(high):
+                found[waypoint] = low - self.waited[waypoint], high - self.waited[waypoint]
         return found
 
     @property
     def timed(self) -> bool:
         """Whether the time of the whole motion is fixed."""
-        return self.n_segments in self.times
+        low, high = self.demands.passages[-1]
+        return bool(low == high)
+
+    @property
+    def hurried(self) -> bool:
+        """Whether something has to be done within a time."""
+        return bool(
+            np.isfinite(self.demands.passages[1:, 1]).any() or np.isfinite(self.demands.durations[:, 1]).any()
+        )
+
+    @property
+    def paced(self) -> bool:
+        """Whether any times are asked for."""
+        return bool(self.windows) or self.hurried or bool(self.demands.durations[:, 0].any())
 
     @property
     def stretchable(self) -> bool:
         """Whether a slowed-down motion still keeps the conditions."""
-        return not self.times and not self.ends.any()
+        return not self.hurried and not np.nan_to_num(self._given).any()

@@ -15,6 +15,10 @@ exact once an arc ends where the acceleration is zero. Joints without a jerk lim
 solution, the Bernstein coefficients of its position are bounded too:
         x, x + h v / 3, x+ - h v+ / 3 (of order 2: x + h v / 2) within [low, high]       (6)
 
+Where a waypoint is a zone, its position is free within a box: with its offsets e from the waypoint, (5) has
+d + e+ - e in place of d, and (6) starts at e. Times are ranges of sums of T_k, and of single ones. In a
+cycle the velocities and accelerations of both ends are equal, and their offset is one.
+
 Free arcs: every arc of every joint has a duration h >= 0 of its own, and the program contains the
 optimum exactly. Even steps: h = T_k / N. Then fewer local optima occur (for given T the rest is convex),
 but the optimum is approximate.
@@ -30,7 +34,7 @@ from typing import Any, TypeAlias
 import casadi
 import numpy as np
 
-from formulations.optima.free_form.nlp.scaled import Place, ScaledProblem
+from formulations.optima.free_form.nlp.scaled import Offset, Place, ScaledProblem
 from formulations.problem.arrays import Array
 
 SHARE = 1e-3  # of the time, in the objective of elastic programs
@@ -52,15 +56,23 @@ class Shape:
     free : bool
         Free arcs, or even steps.
     timed : tuple of int
-        Waypoints with a fixed time.
+        Waypoints with an earliest or a latest time.
     guarded : tuple of Place
         Where rows (6) are posed.
     smooth : bool
         Whether the objective is the integral of the squares of jerk over limit (of order 2:
         acceleration over limit), and not the time.
     elastic : bool
-        Whether fixed times may be missed, and the objective is the sum of what they are missed by, plus
+        Whether times may be missed, and the objective is the sum of what they are missed by, plus
         ``SHARE`` of the time.
+    hurried : tuple of int
+        Segments with a greatest time, which may be missed too; of elastic programs.
+    zones : tuple of Offset
+        Where the position at a waypoint is free within a box.
+    crossings : tuple of Offset
+        Segments that joints with a velocity limit only cross from or to such a waypoint.
+    cyclic : bool
+        Whether both ends have the same state.
     """
 
     segments: int
@@ -71,6 +83,10 @@ class Shape:
     guarded: tuple[Place, ...] = ()
     smooth: bool = False
     elastic: bool = False
+    hurried: tuple[int, ...] = ()
+    zones: tuple[Offset, ...] = ()
+    crossings: tuple[Offset, ...] = ()
+    cyclic: bool = False
 
 
 @dataclass(frozen=True)
@@ -137,7 +153,11 @@ def _nonnegative(numbers: ScaledProblem) -> tuple[float, float]:
 
 
 def _passing(waypoint: int) -> Rule:
-    return lambda numbers: (numbers.fixed_time(waypoint), numbers.fixed_time(waypoint))
+    return lambda numbers: numbers.window(waypoint)
+
+
+def _at_most(segment: int) -> Rule:
+    return lambda numbers: (-np.inf, float(numbers.segment_times[1][segment]))
 
 
 def _inside(place: Place) -> Rule:
@@ -159,12 +179,20 @@ class Equations:
         self.parameters: list[Parameter] = []
         self.rows: list[Block] = []
         times = casadi.SX.sym("T", shape.segments)
-        self._variable("times", 0, times, lambda p: (p.least_times, np.inf))
+        if shape.elastic:
+            self._variable("times", 0, times, lambda p: (p.segment_times[0], np.inf))
+        else:
+            self._variable("times", 0, times, lambda p: p.segment_times)
+        self.offsets = casadi.SX.sym("e", len(shape.zones))
         cost = casadi.sum1(times)
         roughness = 0.0
         for order, n, arcs in zip((2, 3), shape.joints, shape.arcs, strict=True):
             if n:
                 roughness += self._group(order, n, arcs, times)
+        if shape.zones:
+            self._variable("offset", 0, self.offsets, lambda p: p.offsets(shape.zones))
+        if shape.crossings:
+            self._crossings(times)
         missed: Any = 0.0
         for waypoint in shape.timed:
             passed = casadi.sum1(times[:waypoint])
@@ -174,6 +202,11 @@ class Equations:
                 passed += early - late
                 missed += early + late
             self._row("time", 0, passed, _passing(waypoint))
+        for segment in shape.hurried:
+            late = casadi.SX.sym("late")
+            self._variable("missed", 0, late, _nonnegative)
+            missed += late
+            self._row("time", 0, times[segment] - late, _at_most(segment))
         self.objective = roughness if shape.smooth else cost
         if shape.elastic:
             self.objective = missed + SHARE * cost
@@ -206,7 +239,7 @@ class Equations:
         S, steps = self.shape.segments, self.shape.segments * arcs
         per_step = np.repeat(np.arange(S), arcs).tolist()
         v = casadi.SX.sym("v", n, steps + 1)
-        # top: limit on the change of a (of order 2: of v) per unit of time; d: displacements
+        # top: limit on the change of a (of order 2: of v, upwards) per unit of time; d: displacements
         top, d = casadi.SX.sym("top", n, S), casadi.SX.sym("d", n, S)
         if self.shape.free:
             h = casadi.SX.sym("h", n, steps)
@@ -237,17 +270,57 @@ class Equations:
             change = v1 - v0
         reach = top[:, per_step] * h
         self._row("top", order, reach - change, _nonnegative)  # (2)
-        self._row("top", order, reach + change, _nonnegative)
+        if order == 2:
+            fall = casadi.SX.sym("fall", n, S)
+            self._parameter("fall", order, fall, lambda p: p.top(order, 0))
+            self._row("fall", order, fall[:, per_step] * h + change, _nonnegative)
+        else:
+            self._row("fall", order, reach + change, _nonnegative)
         if self.shape.free:
             missing = _per_segment(h, S, arcs) - casadi.repmat(times.T, n, 1)
             self._row("sum", order, missing, _equal)  # (4)
-        self._row("displacement", order, _per_segment(x, S, arcs) - d, _equal, linear=False)  # (5)
+        missing = _per_segment(x, S, arcs) - d
+        offset = self._offset(order, n)
+        if offset is not None:
+            missing -= offset[:, 1:] - offset[:, :-1]
+        self._row("displacement", order, missing, _equal, linear=False)  # (5)
+        if self.shape.cyclic:
+            self._row("cycle", order, v[:, 0] - v[:, -1], _equal)
+            if order == 3:
+                self._row("cycle", order, a[:, 0] - a[:, -1], _equal)
         for place in (place for place in self.shape.guarded if place.order == order):
-            coefficients = _bernstein(x, h, v, place, arcs)
+            start = 0.0 if offset is None else offset[place.member, place.segment]
+            coefficients = _bernstein(x, h, v, place, arcs, start)
             inner = casadi.vertcat(*coefficients[place.first : len(coefficients) - place.last])
             self._row("position", order, inner, _inside(place), linear=False, place=place)  # (6)
         rough = change / (h * top[:, per_step])
         return casadi.sum1(casadi.vec(rough**2 * h))
+
+    def _offset(self, order: int, n: int) -> Any:
+        """Offsets of a group of joints at the waypoints, (n, S + 1); None where there are none."""
+        mine = [(i, zone) for i, zone in enumerate(self.shape.zones) if zone.order == order]
+        if not mine:
+            return None
+        found = casadi.SX(n, self.shape.segments + 1)
+        for i, zone in mine:
+            found[zone.member, zone.waypoint] = self.offsets[i]
+        if self.shape.cyclic:
+            found[:, -1] = found[:, 0]
+        return found
+
+    def _crossings(self, times: Any) -> None:
+        """Register the segments of joints with a velocity limit only whose displacement is free."""
+        crossings, n = self.shape.crossings, len(self.shape.crossings)
+        numbers = [casadi.SX.sym(name, n) for name in ("way", "least", "greatest")]
+        for i, (name, symbols) in enumerate(zip(("way", "least", "greatest"), numbers, strict=True)):
+            self._parameter(name, 1, symbols, lambda p, i=i: p.crossed(crossings)[i])  # type: ignore[misc]
+        offset = self._offset(1, 1 + max(one.member for one in crossings))
+        for i, one in enumerate(crossings):
+            way, least, greatest = (symbols[i] for symbols in numbers)
+            way += offset[one.member, one.waypoint + 1] - offset[one.member, one.waypoint]
+            seconds = times[one.waypoint]
+            self._row("crossing", 1, greatest * seconds - way, _nonnegative)
+            self._row("crossing", 1, way - least * seconds, _nonnegative)
 
     def variable(self, name: str, order: int) -> slice:
         """Find a block of variables.
@@ -284,9 +357,9 @@ def _per_segment(steps: Any, segments: int, arcs: int) -> Any:
     return casadi.horzcat(*[casadi.sum2(steps[:, k * arcs : (k + 1) * arcs]) for k in range(segments)])
 
 
-def _bernstein(x: Any, h: Any, v: Any, place: Place, arcs: int) -> list[Any]:
-    """Inner Bernstein coefficients of the position since the segment's start, and inner nodes."""
-    found, at, i = [], 0.0, place.member
+def _bernstein(x: Any, h: Any, v: Any, place: Place, arcs: int, start: Any) -> list[Any]:
+    """Inner Bernstein coefficients of the position less the segment's first waypoint, and inner nodes."""
+    found, at, i = [], start, place.member
     for step in range(place.segment * arcs, (place.segment + 1) * arcs):
         after = at + x[i, step]
         if place.order == 3:

@@ -9,7 +9,7 @@ import numpy as np
 from formulations.optima.free_form.nlp.arcs import ArcMotion, Arcs
 from formulations.optima.free_form.nlp.conditioned import ConditionedProblem
 from formulations.optima.free_form.nlp.equations import Shape, equations_of
-from formulations.optima.free_form.nlp.scaled import ScaledProblem
+from formulations.optima.free_form.nlp.scaled import Offset, ScaledProblem
 from formulations.problem.arrays import Array
 
 
@@ -77,7 +77,7 @@ class FreeFormNLP:
         smooth : bool
             Minimise the roughness in place of the time.
         elastic : bool
-            Minimise what the fixed times are missed by.
+            Minimise what the times asked for are missed by.
         """
         self.task, self.free = task, free
         self.numbers = numbers = ScaledProblem(task, arcs, second)
@@ -87,10 +87,13 @@ class FreeFormNLP:
             (len(task.group(2)), len(task.group(3))),
             arcs,
             free,
-            tuple(sorted(task.times)),
+            tuple(sorted(task.windows)),
             tuple(places),
             smooth,
             elastic,
+            tuple(np.flatnonzero(np.isfinite(task.durations[:, 1])).tolist()) if elastic else (),
+            *_free_places(task),
+            task.demands.cyclic,
         )
         self.equations = equations_of(self.shape)
         ends = (np.zeros(0), np.zeros(0))
@@ -129,11 +132,18 @@ class FreeFormNLP:
             for derivative in range(order - 1):
                 values = np.stack([node[derivative] for node in nodes], axis=-1)
                 parts.append((values / numbers.unit(order, derivative)).ravel())
+        for zone in self.shape.zones:
+            j = self.task.group(zone.order)[zone.member]
+            off = motion.places[zone.waypoint, j] - self.task.waypoints[zone.waypoint, j]
+            parts.append(np.array([off / (numbers.v_unit[j] * second)]))
         if self.shape.elastic:
             passed = np.cumsum(motion.times)
-            for waypoint in self.shape.timed:
-                late = passed[waypoint - 1] / second - numbers.fixed_time(waypoint)
-                parts.append(np.array([-late, late]))  # the one below 0 is set to 0
+            for waypoint in self.shape.timed:  # what is below 0 is set to 0
+                early, late = numbers.window(waypoint)
+                parts.append(np.array([early, -late]) + np.array([-1.0, 1.0]) * passed[waypoint - 1] / second)
+            for segment in self.shape.hurried:
+                late = motion.times[segment] / second - numbers.segment_times[1][segment]
+                parts.append(np.array([late]))
         return np.clip(np.concatenate(parts), self.low, self.high)
 
     def motion(self, x: Array) -> ArcMotion:
@@ -165,7 +175,34 @@ class FreeFormNLP:
             tops = np.divide(change, h, out=np.zeros_like(h), where=h > 0.0)
             for i, j in enumerate(joints):
                 found[j] = Arcs(order, h[:, :, i], tops[:, :, i], nodes[:, ::arcs, i].T.copy())
-        return ArcMotion(times, found)
+        return ArcMotion(times, found, self._places(x))
+
+    def _places(self, x: Array) -> Array:
+        """Positions at the waypoints, (S + 1, dof)."""
+        places = self.task.waypoints.copy()
+        if self.shape.zones:
+            offsets = x[self.equations.variable("offset", 0)]
+            for zone, offset in zip(self.shape.zones, offsets, strict=True):
+                j = self.task.group(zone.order)[zone.member]
+                places[zone.waypoint, j] += offset * self.numbers.v_unit[j] * self.numbers.second
+        if self.shape.cyclic:
+            places[-1] = places[0]
+        return np.clip(places, self.task.boxes[..., 0], self.task.boxes[..., 1])
+
+
+def _free_places(task: ConditionedProblem) -> tuple[tuple[Offset, ...], tuple[Offset, ...]]:
+    """Offsets of the program, and the segments that joints with a velocity limit only cross with them."""
+    zones, crossings = [], []
+    for order in (1, 2, 3):
+        for member, j in enumerate(task.group(order)):
+            wide = task.zones[:, j].copy()
+            if order == 1:
+                crossings += [
+                    Offset(1, member, int(k)) for k in np.flatnonzero(wide[:-1] | wide[1:])
+                ]
+            wide[-1] &= not task.demands.cyclic
+            zones += [Offset(order, member, int(w)) for w in np.flatnonzero(wide)]
+    return tuple(zones), tuple(crossings)
 
 
 def _flat(nodes: Array, states: Array) -> Array:

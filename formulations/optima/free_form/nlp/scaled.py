@@ -2,15 +2,14 @@
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from typing import NamedTuple
 
 import numpy as np
 
-from formulations.optima.free_form.nlp.assembly import least_times
+from formulations.optima.free_form.nlp.assembly import RAMP, least_times
 from formulations.optima.free_form.nlp.conditioned import ConditionedProblem
 from formulations.problem.arrays import Array, Truths
-
-POSITION_MARGIN = 1e-9  # rad per (1 + |waypoints|) that solutions stay inside the position limits
 
 
 class Place(NamedTuple):
@@ -32,6 +31,23 @@ class Place(NamedTuple):
     segment: int
     first: int
     last: int
+
+
+class Offset(NamedTuple):
+    """A waypoint whose position is free within a box, for one joint.
+
+    Attributes
+    ----------
+    order : int
+        Of the joint.
+    member : int
+        Number of the joint in the group of its order.
+    waypoint : int
+    """
+
+    order: int
+    member: int
+    waypoint: int
 
 
 class ScaledProblem:
@@ -60,7 +76,6 @@ class ScaledProblem:
         """
         self.task, self.arcs, self.second = task, arcs, second
         self.groups = {order: task.group(order) for order in (2, 3) if task.group(order)}
-        self._margin = POSITION_MARGIN * (1.0 + float(np.abs(task.waypoints).max()))
         velocity, acceleration, jerk = task.limits.max(axis=1)
         span = second * task.n_segments
         with np.errstate(invalid="ignore"):  # of joints with a velocity limit only
@@ -94,15 +109,16 @@ class ScaledProblem:
         return np.asarray((self.v_unit, self.a_unit)[derivative][self.groups[order]])
 
     @property
-    def least_times(self) -> Array:
-        """Lower bounds on the segment times, (S,)."""
-        return least_times(self.task) / self.second
+    def segment_times(self) -> tuple[Array, Array]:
+        """Bounds on the segment times, (S,) each."""
+        least = np.maximum(least_times(self.task), self.task.durations[:, 0])
+        return least / self.second, self.task.durations[:, 1] / self.second
 
     def at_nodes(self, order: int, derivative: int) -> tuple[Array, Array]:
         """Bounds on velocity (0) or acceleration (1) at the nodes of a group.
 
         The velocity is 0 at stops and at waypoints on a position limit, the acceleration at stops; both
-        are fixed at the ends of the motion.
+        are fixed at the ends of the motion, where they are not free.
 
         Parameters
         ----------
@@ -114,15 +130,17 @@ class ScaledProblem:
         """
         task, joints, arcs = self.task, self.groups[order], self.arcs_of(order)
         unit = self.unit(order, derivative)
-        bound = _at_nodes(task.limits[derivative][:, joints], arcs) / unit
-        lower, upper = -bound, bound.copy()
-        fixed = {0: task.ends[0, joints] / unit, task.n_segments * arcs: task.ends[1, joints] / unit}
+        bounds = task.intervals[derivative][:, joints] / unit[:, None]
+        lower, upper = -_at_nodes(-bounds[..., 0], arcs), _at_nodes(bounds[..., 1], arcs)
+        given = (task.ends, task.end_accelerations)[derivative][:, joints] / unit
+        fixed = {0: given[0], task.n_segments * arcs: given[1]}
         fixed |= {k * arcs: np.zeros(len(joints)) for k in task.stops}
         if derivative == 0:
-            still = self._on_limit(joints)[1:-1]
-            lower[arcs:-1:arcs][still] = upper[arcs:-1:arcs][still] = 0.0
+            still = self._on_limit(joints)
+            lower[::arcs][still] = upper[::arcs][still] = 0.0
         for node, value in fixed.items():
-            lower[node] = upper[node] = value if derivative == 0 else 0.0
+            lower[node] = np.where(np.isnan(value), lower[node], value)
+            upper[node] = np.where(np.isnan(value), upper[node], value)
         return lower.ravel(), upper.ravel()
 
     def velocity_on_arcs(self, order: int) -> tuple[Array, Array]:
@@ -137,22 +155,27 @@ class ScaledProblem:
         low, high : Array, shape (S arcs n,)
         """
         joints = self.groups[order]
-        bound = self.task.limits[0][:, joints] / self.v_unit[joints]
-        high = np.repeat(bound, self.arcs_of(order), axis=0).ravel()
-        return -high, high
+        bounds = self.task.intervals[0][:, joints] / self.v_unit[joints][:, None]
+        whole = np.repeat(bounds, self.arcs_of(order), axis=0)
+        return whole[..., 0].ravel(), whole[..., 1].ravel()
 
-    def top(self, order: int) -> Array:
-        """Limit of the highest derivative.
+    def top(self, order: int, side: int = 1) -> Array:
+        """Limit of the highest derivative, upwards (1) or downwards (0).
 
         Parameters
         ----------
-        order : int
+        order, side : int
 
         Returns
         -------
         Array, shape (S n,)
+            Moduli.
         """
-        limits = self.task.limits[order - 1][:, self.groups[order]]
+        joints = self.groups[order]
+        if order == 3:
+            limits = self.task.limits[2][:, joints]
+        else:
+            limits = np.abs(self.task.intervals[1][:, joints, side])
         return np.asarray(limits * self.second / self.unit(order, order - 2)).ravel()
 
     def displacement(self, order: int) -> Array:
@@ -185,8 +208,8 @@ class ScaledProblem:
         joints = self.groups[order]
         return np.asarray(self.a_unit[joints] * self.second / self.v_unit[joints])
 
-    def fixed_time(self, waypoint: int) -> float:
-        """Time at which a waypoint is passed.
+    def window(self, waypoint: int) -> tuple[float, float]:
+        """Least and greatest sum of the segment times before a waypoint.
 
         Parameters
         ----------
@@ -194,9 +217,49 @@ class ScaledProblem:
 
         Returns
         -------
-        float
+        low, high : float
         """
-        return self.task.times[waypoint] / self.second
+        low, high = self.task.windows[waypoint]
+        return low / self.second, high / self.second
+
+    def _of(self, where: Offset) -> int:
+        """The joint of an offset."""
+        return self.task.group(where.order)[where.member]
+
+    def offsets(self, zones: Sequence[Offset]) -> tuple[Array, Array]:
+        """Bounds on how far the positions at waypoints are from the waypoints.
+
+        Parameters
+        ----------
+        zones : sequence of Offset
+
+        Returns
+        -------
+        low, high : Array, shape (n_zones,)
+        """
+        joints, at = [self._of(zone) for zone in zones], [zone.waypoint for zone in zones]
+        sides = self.task.boxes[at, joints] - self.task.waypoints[at, joints][:, None]
+        sides = sides / (self.v_unit[joints] * self.second)[:, None]
+        return sides[:, 0], sides[:, 1]
+
+    def crossed(self, crossings: Sequence[Offset]) -> tuple[Array, Array, Array]:
+        """What joints with a velocity limit only cross on segments, and how fast they may.
+
+        Parameters
+        ----------
+        crossings : sequence of Offset
+            Each stands for the segment after its waypoint.
+
+        Returns
+        -------
+        displacement, least, greatest : Array, shape (n,)
+            Displacement between the waypoints, and bounds on the velocity.
+        """
+        joints, at = [self._of(one) for one in crossings], [one.waypoint for one in crossings]
+        speeds = self.task.intervals[0][at, joints] * (1.0 - 3.0 * RAMP)
+        unit = self.v_unit[joints]
+        way = self.task.displacements[at, joints] / (unit * self.second)
+        return way, speeds[:, 0] / unit, speeds[:, 1] / unit
 
     def room(self, place: Place) -> tuple[float, float]:
         """Position limits on a segment, relative to its first waypoint and drawn in by a margin.
@@ -212,11 +275,11 @@ class ScaledProblem:
         low, high : float
         """
         task, k, j = self.task, place.segment, self.groups[place.order][place.member]
-        ends = task.waypoints[k : k + 2, j]
-        lowest = min(task.position_bounds[k, j, 0] + self._margin, ends.min())
-        highest = max(task.position_bounds[k, j, 1] - self._margin, ends.max())
+        ends, start = task.boxes[k : k + 2, j], task.waypoints[k, j]
+        lowest = min(task.position_bounds[k, j, 0] + task.margin, ends.min())
+        highest = max(task.position_bounds[k, j, 1] - task.margin, ends.max())
         unit = self.v_unit[j] * self.second
-        return float((lowest - ends[0]) / unit), float((highest - ends[0]) / unit)
+        return float((lowest - start) / unit), float((highest - start) / unit)
 
     def place(self, joint: int, segment: int) -> Place:
         """Where rows (6) of a joint on a segment are posed.
@@ -240,16 +303,23 @@ class ScaledProblem:
         return Place(order, self.groups[order].index(joint), segment, first, last)
 
     def _rests(self, joint: int, waypoint: int) -> bool:
-        given = {0: self.task.ends[0, joint], self.task.n_segments: self.task.ends[1, joint]}
-        return waypoint in self.task.stops or given.get(waypoint, 1.0) == 0.0
+        if waypoint in self.task.stops:
+            return True
+        given = [self.task.ends[:, joint]]
+        if self.task.order[joint] == 3:
+            given.append(self.task.end_accelerations[:, joint])
+        at = {0: 0, self.task.n_segments: 1}.get(waypoint)
+        return at is not None and all(values[at] == 0.0 for values in given)
 
     def _on_limit(self, joints: list[int]) -> Truths:
         """Waypoints that lie on a position limit, where the velocity must be 0, (S + 1, n)."""
         bounds, x = self.task.position_bounds[:, joints], self.task.waypoints[:, joints]
         near = np.zeros(x.shape, dtype=bool)
         for side in (slice(None, -1), slice(1, None)):
-            near[side] |= (np.abs(bounds - x[side, :, None]) <= self._margin).any(axis=2)
-        return near
+            near[side] |= (np.abs(bounds - x[side, :, None]) <= self.task.margin).any(axis=2)
+        if not self.task.demands.cyclic:
+            near[[0, -1]] = False  # at an end, the joint may come from the limit or go to it
+        return near & ~self.task.zones[:, joints]
 
 
 def _at_nodes(limits: Array, arcs: int) -> Array:

@@ -1,4 +1,4 @@
-"""Boxes: intervals that hold the segment durations and waypoint accelerations of all motions looked at."""
+"""Boxes: intervals that hold durations, accelerations and positions of all motions looked at."""
 
 from __future__ import annotations
 
@@ -20,17 +20,20 @@ class Boxes:
         Least and greatest duration of each segment.
     accelerations : Array, shape (K + 1, n, 2) [rad/s^2]
         Least and greatest acceleration of each joint at each waypoint.
+    offsets : Array, shape (K + 1, n, 2) [rad]
+        Least and greatest position in the zone of each waypoint, from the middle of the zone.
     empty : bool
         Whether it is proved that no motion is in the boxes.
     """
 
     durations: Array
     accelerations: Array
+    offsets: Array
     empty: bool = False
 
     @staticmethod
     def around(relaxed: RelaxedProblem, least: Array, most: Array) -> Boxes:
-        """Boxes with given durations and all accelerations within the limits.
+        """Boxes with given durations, all accelerations within the limits, and whole zones.
 
         Parameters
         ----------
@@ -42,11 +45,54 @@ class Boxes:
         Boxes
             Marked empty where a least duration is above the greatest.
         """
-        limit = np.broadcast_to(relaxed.acceleration, (len(least) + 1, len(relaxed.joints)))
-        accelerations = np.stack([-limit, limit], axis=-1)
-        return Boxes(np.stack([least, most], axis=1), accelerations, bool((least > most).any()))
+        return Boxes(
+            np.stack([least, most], axis=1),
+            joined_ends(relaxed, relaxed.a_boxes),
+            joined_ends(relaxed, relaxed.zones[..., None] * (-1.0, 1.0)),
+            bool((least > most).any()),
+        )
 
     @property
     def width(self) -> float:
         """Sum over the segments of the relative width of the duration's interval."""
         return float((self.durations[:, 1] / self.durations[:, 0] - 1.0).sum())
+
+
+def joined_ends(relaxed: RelaxedProblem, intervals: Array) -> Array:
+    """Intersect the intervals at both ends of a cycle, which are one waypoint.
+
+    Parameters
+    ----------
+    relaxed : RelaxedProblem
+    intervals : Array, shape (K + 1, n, 2)
+
+    Returns
+    -------
+    Array, shape (K + 1, n, 2)
+        The same where the problem is no cycle.
+    """
+    if not relaxed.cyclic:
+        return intervals
+    found = intervals.copy()
+    found[[0, -1], :, 0] = intervals[[0, -1], :, 0].max(axis=0)
+    found[[0, -1], :, 1] = intervals[[0, -1], :, 1].min(axis=0)
+    return found
+
+
+def clipped(relaxed: RelaxedProblem, boxes: Boxes) -> Boxes:
+    """Clip boxes of another horizon to the limits of this one.
+
+    Parameters
+    ----------
+    relaxed : RelaxedProblem
+    boxes : Boxes
+
+    Returns
+    -------
+    Boxes
+    """
+    mine = joined_ends(relaxed, relaxed.a_boxes)
+    accelerations = boxes.accelerations.copy()
+    accelerations[..., 0] = np.maximum(accelerations[..., 0], mine[..., 0])
+    accelerations[..., 1] = np.minimum(accelerations[..., 1], mine[..., 1])
+    return Boxes(boxes.durations, accelerations, boxes.offsets, boxes.empty)

@@ -24,16 +24,20 @@ class Kind(IntEnum):
     DISTANCE = 8  # (1) without a piece at top speed
     CRUISE = 9  # (1) with one
     SPEED = 10  # (2)
+    ZONE_AT_START = 11  # (11), at either end of a segment
+    ZONE_AT_END = 12
 
     @property
     def end(self) -> int:
         """The end of the segment that the row is about: 0 start, 1 end."""
-        return int(self in (Kind.PRODUCT_AT_END, Kind.PEAK_AT_END, Kind.STOP_AT_END))
+        ends = (Kind.PRODUCT_AT_END, Kind.PEAK_AT_END, Kind.STOP_AT_END, Kind.ZONE_AT_END)
+        return int(self in ends)
 
 
 PRODUCTS = (Kind.PRODUCT_AT_START, Kind.PRODUCT_AT_END)
 PEAKS = (Kind.PEAK_AT_START, Kind.PEAK_AT_END)
 STOPS = (Kind.STOP_AT_START, Kind.STOP_AT_END)
+ZONES = (Kind.ZONE_AT_START, Kind.ZONE_AT_END)
 DISTANCES = (Kind.DISTANCE, Kind.CRUISE)
 
 
@@ -50,7 +54,7 @@ class Cuts:
     sign : Array, shape (m,)
         Direction of motion, 1 or -1.
     at : Array, shape (m, 6)
-        The place. First column: t [s] of (7) and (8), the number of a corner of (9), c [rad/s^3] of
+        The place. First column: t [s] of (7) and (8), the number of a corner of (9) and (11), c [rad/s^3] of
         (10). The first two columns of (2) and (3), all six of (1): switches in [0, 1].
     """
 

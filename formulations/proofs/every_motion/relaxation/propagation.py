@@ -1,18 +1,19 @@
 """Narrower boxes of the accelerations at the waypoints, from those of the durations: no linear program.
 
 Two segments take T and U seconds and move a joint by d and by e; a is its acceleration at the waypoint
-where they meet, |jerk| <= J. Then
+where they meet, |jerk| <= J and K. Then
 
-    | a - 2 (e / U - d / T) / (T + U) |  <=  J (T^2 + U^2) / (3 (T + U)).                       (13)
+    | a - 2 (e / U - d / T) / (T + U) |  <=  (J T^2 + K U^2) / (3 (T + U)).                      (13)
 
 Proof. By Taylor's formula at the waypoint, where the velocity is v, e = v U + a U^2 / 2 + r with
-|r| <= J U^3 / 6, and d = v T - a T^2 / 2 + s with |s| <= J T^3 / 6. Divide by U and by T and subtract:
-e / U - d / T = a (T + U) / 2 + r / U - s / T, and |r / U - s / T| <= J (T^2 + U^2) / 6.
+|r| <= K U^3 / 6, and d = v T - a T^2 / 2 + s with |s| <= J T^3 / 6. Divide by U and by T and subtract:
+e / U - d / T = a (T + U) / 2 + r / U - s / T, and |r / U - s / T| <= (J T^2 + K U^2) / 6.
 
-With D = T^2 U + T U^2, the upper side of (13) is N / D for N = 2 (e T - d U) + J (T^3 U + T U^3) / 3. Over
+With D = T^2 U + T U^2, the upper side of (13) is N / D for N = 2 (e T - d U) + (J T^3 U + K T U^3) / 3. Over
 boxes of T and U both are combinations of their Bernstein coefficients of degree 3 in T and in U, with the
 same positive weights, and those of D are positive. So a <= max N_ij / D_ij; the lower side is the upper
-one of -a, -d and -e. Moreover the acceleration changes by at most J T over a segment.
+one of -a, -d and -e. Of zones, d is the least and e the greatest there is. Moreover the acceleration changes
+by at most J T over a segment.
 
 The products (9) lose the width of a duration's interval times that of an acceleration's. Without (13)
 the latter is the acceleration limit or J H / 4; short segments leave it no more than 2 J (T + U) / 3.
@@ -22,8 +23,8 @@ from __future__ import annotations
 
 import numpy as np
 
-from formulations.problem.arrays import Array
-from formulations.proofs.every_motion.relaxation.boxes import Boxes
+from formulations.problem.arrays import Array, Truths
+from formulations.proofs.every_motion.relaxation.boxes import Boxes, joined_ends
 from formulations.proofs.every_motion.relaxation.relaxed_problem import RelaxedProblem
 
 _ROUNDING = 32.0 * 2.0**-53  # of the sum of all terms' moduli: more than their roundings
@@ -47,13 +48,15 @@ def propagate(relaxed: RelaxedProblem, boxes: Boxes) -> Boxes:
     limited = relaxed.has_jerk
     if boxes.empty or not limited.any():
         return boxes
-    d, J = relaxed.displacements[:, limited], relaxed.jerk[limited]
-    found = boxes.accelerations[:, limited]
-    found[[0, -1]] = 0.0
-    least, most = (_upper_sides(sign * d, J, boxes.durations) for sign in (-1.0, 1.0))
-    # where a number overflows the box stays as it is
-    found[1:-1, :, 0] = np.fmax(found[1:-1, :, 0], -least)
-    found[1:-1, :, 1] = np.fmin(found[1:-1, :, 1], most)
+    J, found = relaxed.jerks[:, limited], boxes.accelerations[:, limited].copy()
+    least, most = (
+        _upper_sides(*_ways(relaxed, boxes, sign, limited), J, boxes.durations) for sign in (-1.0, 1.0)
+    )
+    # where a number overflows the box stays as it is, and so does an acceleration that is given
+    inner = found[1:-1]
+    free = inner[..., 0] < inner[..., 1]
+    inner[..., 0] = np.where(free, np.fmax(inner[..., 0], -least), inner[..., 0])
+    inner[..., 1] = np.where(free, np.fmin(inner[..., 1], most), inner[..., 1])
     changes = boxes.durations[:, 1, None] * J
     for k, change in enumerate(changes):
         _follow(found[k + 1], found[k], change)
@@ -61,10 +64,28 @@ def propagate(relaxed: RelaxedProblem, boxes: Boxes) -> Boxes:
         _follow(found[k], found[k + 1], change)
     accelerations = boxes.accelerations.copy()
     accelerations[:, limited] = found
-    return Boxes(boxes.durations, accelerations, bool((found[..., 0] > found[..., 1]).any()))
+    accelerations = joined_ends(relaxed, accelerations)
+    empty = bool((accelerations[..., 0] > accelerations[..., 1]).any())
+    return Boxes(boxes.durations, accelerations, boxes.offsets, empty)
 
 
-def _upper_sides(d: Array, J: Array, durations: Array) -> Array:
+def _ways(relaxed: RelaxedProblem, boxes: Boxes, sign: float, joints: Truths) -> tuple[Array, Array]:
+    """Least displacement before and greatest one after each inner waypoint, (K - 1, n), in one direction."""
+    d = sign * relaxed.displacements[:, joints]
+    offsets = boxes.offsets[:, joints] if sign > 0.0 else -boxes.offsets[:, joints, ::-1]
+    low, high = offsets[..., 0], offsets[..., 1]
+    least, most = d + (low[1:] - high[:-1]), d + (high[1:] - low[:-1])
+    if offsets.any():  # three roundings
+        wider = (
+            4.0
+            * 2.0**-53
+            * (np.abs(d) + np.abs(offsets).max(axis=-1)[1:] + np.abs(offsets).max(axis=-1)[:-1])
+        )
+        least, most = least - wider, most + wider
+    return least[:-1], most[1:]
+
+
+def _upper_sides(d: Array, e: Array, J: Array, durations: Array) -> Array:
     """Upper bounds of the accelerations at the inner waypoints, (K - 1, n) [rad/s^2]."""
     powers = _powers(*durations.T)
     before, after = (
@@ -76,8 +97,9 @@ def _upper_sides(d: Array, J: Array, durations: Array) -> Array:
         """T^p U^q: (K - 1, 1, 4, 4)."""
         return np.asarray(before[p][..., :, None] * after[q][..., None, :])
 
-    ways = [2.0 * d[1:, :, None, None] * product(1, 0), -2.0 * d[:-1, :, None, None] * product(0, 1)]
-    jerk = J[:, None, None] / 3.0 * (product(3, 1) + product(1, 3))
+    ways = [2.0 * e[:, :, None, None] * product(1, 0), -2.0 * d[:, :, None, None] * product(0, 1)]
+    jerks = J[:, :, None, None] / 3.0
+    jerk = jerks[:-1] * product(3, 1) + jerks[1:] * product(1, 3)
     sizes = abs(ways[0]) + abs(ways[1]) + jerk
     below = product(2, 1) + product(1, 2)
     tops = (ways[0] + ways[1] + jerk + _ROUNDING * sizes + _UNDERFLOW) / below

@@ -1,13 +1,18 @@
-"""The problem that the relaxation is posed for: the segments and joints that count, and their limits."""
+"""The problem that the relaxation is posed for: the waypoints and joints that count, and their limits."""
 
 from __future__ import annotations
 
+from collections.abc import Callable
 from dataclasses import dataclass
+from itertools import pairwise
 
 import numpy as np
 
 from formulations.problem.arrays import Array, Indices, Truths
+from formulations.problem.demands import Demands
 from formulations.problem.problem import Problem
+from formulations.proofs.every_motion.relaxation.implied_limits import implied_limits
+from formulations.proofs.every_motion.relaxation.kept_waypoints import gaps, kept_waypoints
 
 UP, DOWN = 1.0 + 2.0**-50, 1.0 - 2.0**-50  # cover the rounding of two operations
 _WIDER = (
@@ -17,53 +22,80 @@ _WIDER = (
 
 @dataclass(frozen=True)
 class RelaxedProblem:
-    """A problem without the segments and joints that have no row, and with limits for one horizon.
+    """A problem without the waypoints and joints that have no row, and with limits for one horizon.
 
-    A segment between equal waypoints is left out: the fastest motion passes it in no time, and a
-    waypoint less can only make a motion faster. A joint that never moves is left out, since it can
-    stand still. A joint with a velocity limit only is left out of the rows: all that it implies is
-    T >= |d| / V, which ``least`` holds.
+    A waypoint that can coincide with the one before is left out: a motion without it can only be faster. A
+    joint that never has to move is left out, since it can stand still. A joint with a velocity limit only is
+    left out of the rows: all that it implies is T >= |d| / V, which ``least`` holds.
+
+    Where limits differ between segments or directions, ``velocity``, ``acceleration`` and ``jerk`` are the
+    greatest of them. A segment between two waypoints that are kept has the loosest limits of the problem's
+    segments there. Directions come as backwards, forwards.
 
     Attributes
     ----------
-    least : Array, shape (K,) [s]
-        Lower bound on each duration set by the joints that have a velocity limit only.
+    least, most : Array, shape (K,) [s]
+        Bounds on each duration: those asked for, and that of the joints with a velocity limit only.
+    gaps : Array, shape (K, n, 2) [rad]
+        How far a joint has to go at least, backwards and forwards.
     displacements : Array, shape (K, n) [rad]
-        Of the joints in the rows, each rounded once.
-    room : Array, shape (K + 1, n, 2) [rad]
-        Distance from each waypoint to the lower and to the upper position limit, infinite without one.
+        Between the middles of the zones, each rounded once.
+    zones : Array, shape (K + 1, n) [rad]
+        How far a waypoint may be from its middle; 0 where it is fixed.
+    room : Array, shape (K, 2, n, 2) [rad]
+        Distance from the middle at either end of a segment to the lower and to the upper position limit,
+        infinite without one.
     velocity, acceleration, jerk : Array, shape (n,)
         Limits that every motion of at most ``horizon`` seconds keeps; jerk is 0 where unlimited.
+    velocities, accelerations : Array, shape (K, n, 2)
+        The same on each segment, backwards and forwards, as moduli.
+    jerks : Array, shape (K, n)
+    v_boxes, a_boxes : Array, shape (K + 1, n, 2)
+        Least and greatest velocity and acceleration at the waypoints [rad/s, rad/s^2].
     horizon : float [s]
-        The motions considered take at most this long.
+        The motions considered take at most this long, without the waits at waypoints.
+    waits : float [s]
+        The sum of those waits, rounded down.
+    arrivals : Array, shape (K + 1, 2) [s]
+        Bounds on the sum of the durations before a waypoint, rounded outward.
+    cyclic : bool
+        Whether positions, velocities and accelerations are the same at both ends.
+    fades : tuple of bool
+        Whether an acceleration has to come from 0 after the start, and to fall to 0 before the end.
     segments : Indices, shape (K,)
-        The problem's number of each segment kept.
+        The problem's number of the waypoint where each segment starts.
     joints : Indices, shape (n,)
         The problem's number of each joint kept.
+    end : int
+        The problem's number of the last waypoint kept.
     """
 
     least: Array
+    most: Array
+    gaps: Array
     displacements: Array
+    zones: Array
     room: Array
     velocity: Array
     acceleration: Array
     jerk: Array
+    velocities: Array
+    accelerations: Array
+    jerks: Array
+    v_boxes: Array
+    a_boxes: Array
     horizon: float
+    waits: float
+    arrivals: Array
+    cyclic: bool
+    fades: tuple[bool, bool]
     segments: Indices
     joints: Indices
+    end: int
 
     @staticmethod
     def of(problem: Problem, horizon: float, slack: float | None = None) -> RelaxedProblem:
         """Relax a problem for all motions of at most ``horizon`` seconds.
-
-        From rest to rest, and with an acceleration that starts and ends at 0 if jerk is limited,
-
-            |v| <= min(V, A H / 2, J H^2 / 16),   |a| <= min(A, sqrt(2 J V), J H / 4).
-
-        A speed v that is gained must be lost again: either takes at least v / A, and at least
-        2 sqrt(v / J) where the acceleration starts and ends at 0. An acceleration a takes a / J to
-        rise and a / J to fall. Meanwhile the velocity changes by a^2 / J, which is at most 2 V; a
-        change of the opposite sign takes at least 2 a / J more.
 
         Parameters
         ----------
@@ -78,30 +110,74 @@ class RelaxedProblem:
         -------
         RelaxedProblem
         """
-        slack = problem.position_slack * _WIDER if slack is None else slack
-        limits = problem.limits
-        moves = (problem.displacements != 0.0).any(axis=0)
-        limited = np.isfinite(limits.acceleration) | np.isfinite(limits.jerk)
-        joints = np.flatnonzero(moves & limited)
-        segments = np.flatnonzero((problem.displacements != 0.0).any(axis=1))
-        V, A, J = limits.velocity[joints], limits.acceleration[joints], limits.jerk[joints]
-        top = np.minimum(V, UP * np.minimum(A * horizon / 2.0, J * horizon**2 / 16.0))
-        steepest = np.minimum(A, UP * np.minimum(np.sqrt(2.0 * J * V), J * horizon / 4.0))
-        others = np.flatnonzero(moves & ~limited)
-        ways = np.abs(problem.displacements[np.ix_(segments, others)])
-        passed = np.append(segments, segments[-1:] + 1)
-        x = problem.waypoints[np.ix_(passed, joints)][..., None]
-        bounds = problem.position_bounds[joints]
+        return RelaxedProblem.under(Demands.of(problem), horizon, slack)
+
+    @staticmethod
+    def under(demands: Demands, horizon: float, slack: float | None = None) -> RelaxedProblem:
+        """Relax what a motion has to keep, for all motions of at most ``horizon`` seconds.
+
+        Parameters
+        ----------
+        demands : Demands
+        horizon : float [s]
+            The time H, with all waits.
+        slack : float, optional [rad]
+            As in ``of``.
+
+        Returns
+        -------
+        RelaxedProblem
+        """
+        kept, joints = kept_waypoints(demands), _joints_in_rows(demands)
+        between = _Between(kept)
+        box = demands.waypoints[kept][:, joints]
+        middles = box.mean(axis=-1)
+        apart = np.maximum(box[..., 1] - middles, middles - box[..., 0])
+        slack = demands.problem.position_slack * _WIDER if slack is None else slack
+        bounds = between.hull(demands.position[:, joints])
+        K = len(bounds)
+        room = [(bounds - middles[e : K + e, :, None]) * (-1.0, 1.0) for e in (0, 1)]
+        waits = float(demands.waits[kept].sum()) * down(len(kept))
+        asked = np.maximum(between.least(demands), _by_velocity_alone(demands, kept))
+        speeds = np.abs(between.hull(demands.velocity[:, joints]))
+        by_speed = DOWN * (gaps(box) / speeds).max(axis=(1, 2), initial=0.0)
+        shortest = float(np.maximum(asked, by_speed).sum() + waits) * down(len(kept) + 1)
+        top, steepest = implied_limits(demands, joints, horizon, shortest)
+        velocities = np.minimum(speeds, top[:, None])
+        accelerations = np.minimum(
+            np.abs(between.hull(demands.acceleration[:, joints])), steepest[:, None]
+        )
+        jerks = between.hull(np.stack(2 * [demands.jerk[:, joints]], axis=-1))[..., 1]
+        jerks = np.where(np.isfinite(jerks), jerks, 0.0)
         return RelaxedProblem(
-            least=DOWN * (ways / limits.velocity[others]).max(axis=1, initial=0.0),
-            room=np.maximum((bounds - x) * (-1.0, 1.0), 0.0) + slack,
-            displacements=problem.displacements[np.ix_(segments, joints)],
-            velocity=top,
-            acceleration=steepest,
-            jerk=np.where(np.isfinite(J), J, 0.0),
-            horizon=horizon,
-            segments=segments,
+            least=asked,
+            most=between.most(demands),
+            gaps=gaps(box),
+            displacements=np.diff(middles, axis=0),
+            zones=np.where(box[..., 0] < box[..., 1], UP * apart, 0.0),
+            room=np.maximum(np.stack(room, axis=1), 0.0) + slack,
+            velocity=velocities.max(axis=(0, 2), initial=0.0),
+            acceleration=accelerations.max(axis=(0, 2), initial=0.0),
+            jerk=jerks.max(axis=0, initial=0.0),
+            velocities=velocities,
+            accelerations=accelerations,
+            jerks=jerks,
+            v_boxes=_at_waypoints(demands, kept, joints, velocities, demands.end_velocity),
+            a_boxes=_at_waypoints(
+                demands,
+                kept,
+                joints,
+                accelerations * (jerks > 0.0)[..., None],
+                demands.end_acceleration,
+            ),
+            horizon=UP * (horizon - waits) if waits else horizon,
+            waits=waits,
+            arrivals=_arrivals(demands, kept),
+            cyclic=demands.cyclic,
+            fades=_fades(demands),
+            segments=kept[:-1],
             joints=joints,
+            end=int(kept[-1]) if len(kept) else 0,
         )
 
     @property
@@ -111,5 +187,108 @@ class RelaxedProblem:
 
     @property
     def at_top_speed(self) -> Array:
-        """Displacement over top speed of the slowest joint of each segment, (K,) [s]."""
-        return np.asarray((np.abs(self.displacements) / self.velocity).max(axis=1))
+        """Least displacement over top speed of the slowest joint of each segment, (K,) [s]."""
+        return np.asarray((self.gaps / self.velocities).max(axis=(1, 2), initial=0.0))
+
+    @property
+    def waypoints(self) -> Indices:
+        """The problem's number of each waypoint kept, (K + 1,)."""
+        return np.append(self.segments, self.end)
+
+
+class _Between:
+    """Values of the problem's segments between two waypoints that are kept."""
+
+    def __init__(self, kept: Indices) -> None:
+        self.parts = [slice(i, k) for i, k in pairwise(kept.tolist())]
+
+    def _each(self, of: Callable[[slice], Array], shape: tuple[int, ...]) -> Array:
+        return np.array([of(part) for part in self.parts]).reshape(len(self.parts), *shape)
+
+    def hull(self, intervals: Array) -> Array:
+        """The intervals that hold those of all segments, (K, n, 2)."""
+        low = self._each(lambda part: intervals[part, :, 0].min(axis=0), intervals.shape[1:2])
+        high = self._each(lambda part: intervals[part, :, 1].max(axis=0), intervals.shape[1:2])
+        return np.stack([low, high], axis=-1)
+
+    def least(self, demands: Demands) -> Array:
+        """Time that is asked for at least, (K,), with waits at waypoints that are not kept."""
+
+        def least(part: slice) -> Array:
+            inside = demands.waits[part.start + 1 : part.stop]
+            return down(2 * len(inside) + 2) * (demands.durations[part, 0].sum() + inside.sum())
+
+        return self._each(least, ())
+
+    def most(self, demands: Demands) -> Array:
+        """Time that is asked for at most, (K,); infinite where there is a wait in between."""
+
+        def most(part: slice) -> Array:
+            inside = demands.waits[part.start + 1 : part.stop]
+            whole = demands.durations[part, 1].sum() * (2.0 - down(len(inside) + 1))
+            return np.asarray(np.inf if inside.any() else whole)
+
+        return self._each(most, ())
+
+
+def down(terms: int) -> float:
+    """A factor that makes a sum of so many positive terms less than their exact sum."""
+    return 1.0 - (terms + 1) * 2.0**-52
+
+
+def _limited(demands: Demands) -> Truths:
+    """Which joints have an acceleration or a jerk limit, (dof,)."""
+    limits = demands.problem.limits
+    return np.isfinite(limits.acceleration) | np.isfinite(limits.jerk)
+
+
+def _joints_in_rows(demands: Demands) -> Indices:
+    """Joints with more than a velocity limit that cannot stand still."""
+    box = demands.waypoints
+    moves = box[..., 0].max(axis=0) > box[..., 1].min(axis=0)
+    for states in (demands.end_velocity, demands.end_acceleration):
+        moves |= ((states[..., 0] > 0.0) | (states[..., 1] < 0.0)).any(axis=0)
+    return np.flatnonzero(moves & _limited(demands))
+
+
+def _by_velocity_alone(demands: Demands, kept: Indices) -> Array:
+    """Least time of the joints with a velocity limit only, (K,) [s]."""
+    others = np.flatnonzero(~_limited(demands))
+    speeds = np.abs(_Between(kept).hull(demands.velocity[:, others]))
+    return DOWN * (gaps(demands.waypoints[kept][:, others]) / speeds).max(axis=(1, 2), initial=0.0)
+
+
+def _at_waypoints(
+    demands: Demands, kept: Indices, joints: Indices, moduli: Array, ends: Array
+) -> Array:
+    """Intervals at the waypoints, (K + 1, n, 2), from moduli backwards and forwards on the segments."""
+    both = moduli * (-1.0, 1.0)
+    if not len(both):
+        return np.zeros((len(kept), len(joints), 2))
+    before, after = np.concatenate([both[:1], both]), np.concatenate([both, both[-1:]])
+    found = np.stack(
+        [np.maximum(before[..., 0], after[..., 0]), np.minimum(before[..., 1], after[..., 1])], axis=-1
+    )
+    found[demands.stops[kept]] = 0.0
+    if not demands.cyclic:
+        given = ends[:, joints]
+        for i in (0, -1):
+            found[i, :, 0] = np.maximum(found[i, :, 0], given[i, :, 0])
+            found[i, :, 1] = np.minimum(found[i, :, 1], given[i, :, 1])
+    return found
+
+
+def _arrivals(demands: Demands, kept: Indices) -> Array:
+    """Bounds on the sum of the durations before each waypoint, (K + 1, 2) [s]."""
+    waited = np.concatenate([[0.0], np.cumsum(demands.waits[kept])[:-1]]) if len(kept) else np.zeros(0)
+    found = demands.passages[kept] - waited[:, None]
+    with np.errstate(invalid="ignore"):
+        rounding = (1.0 - down(len(kept))) * (waited[:, None] + np.abs(found)) * (-1.0, 1.0)
+        rounded = np.isfinite(found) & (waited[:, None] > 0.0)
+        return np.where(rounded, found + rounding, found)
+
+
+def _fades(demands: Demands) -> tuple[bool, bool]:
+    """Whether the acceleration has to come from 0 after the start, and to fall to 0 before the end."""
+    start, end = (demands.cyclic or not states.any() for states in demands.end_acceleration)
+    return start, end

@@ -1,20 +1,25 @@
 """The relaxation's variables and rows, all of the form a x <= b, in finite boxes.
 
 Variables, each of order 1: the duration T of a segment, 1 / T and T^2; velocity v and acceleration a of
-a joint at a waypoint; W = T a at both ends of a segment. Rows:
+a joint at a waypoint; W = T a at both ends of a segment; where a waypoint is a zone, how far e the joint
+is from its middle, and p = e / T at the ends of both segments. At the ends of a cycle the variables are
+the same. Rows:
 
-    sum of T <= H                                                                                (5)
+    sum of T <= H, and of those before a waypoint within its bounds                              (5)
     1 / T <= 1 / l + 1 / h - T / (l h)       secant over l <= T <= h                             (6)
     1 / T >= 2 / t - T / t^2                 tangent at t                                        (7)
     T^2 <= (h + 2 t) T + h t^2 / T - 2 h t - t^2     (T - t)^2 (h - T) / T >= 0                   (8)
-    (T - t) (a - e) of one sign              T at a bound t, a at a bound e (McCormick 1976)     (9)
+    (T - t) (a - f) of one sign              T at a bound t, a at a bound f (McCormick 1976)     (9)
     |v| + (2 c W - c^2 T^2) / (2 J) <= V     tangent of |v| + a^2 / (2 J) <= V, c = a / T        (10)
-    (1), (2) and (3) of ``reach``.
+    (1 / T - u) (e - f) of one sign          1 / T at a bound u, e at a bound f                  (11)
+    (1), (2) and (3) of ``reach``, where d / T is (distance of the middles) / T + p - p.
 
 Row (8) makes the relaxation tight: together with (6) and (7) it bounds the convex hull of the curve
 (T, 1 / T, T^2) where the optimum lies; the secant of T^2 is the case t = l. In (10) the acceleration a
-falls to 0, or rose from 0, with |j| <= J, and the speed stays within V meanwhile. The least sum of T
-over these rows is a lower bound for every choice of t, c and the switches.
+falls to 0, or rose from 0, with |j| <= J, and the speed stays within V meanwhile, on whatever segment
+that is: V and J are the greatest of all. Where an acceleration is free at an end of the motion, (10) is
+posed only where there is certainly the time a / J for that. The least sum of T over these rows is a lower
+bound for every choice of t, c and the switches.
 
 Rounding. A coefficient differs from the exact one by at most 32 roundings, none of which cancels. Each
 right hand side is raised by 64 u sum |a_i| max |x_i|, u = 2^-53, so that the rows in floats hold for
@@ -31,98 +36,46 @@ from __future__ import annotations
 import numpy as np
 
 from formulations.problem.arrays import Array, Indices, Truths
-from formulations.proofs.every_motion.relaxation.boxes import Boxes
-from formulations.proofs.every_motion.relaxation.cuts import PEAKS, PRODUCTS, STOPS, Cuts, Kind
+from formulations.proofs.every_motion.relaxation.columns import Columns
+from formulations.proofs.every_motion.relaxation.cuts import PEAKS, PRODUCTS, STOPS, ZONES, Cuts, Kind
 from formulations.proofs.every_motion.relaxation.inequalities import Rows, Terms
 from formulations.proofs.every_motion.relaxation.reach import (
+    arc_coefficients,
     distance_coefficients,
     speed_coefficients,
     stop_coefficients,
 )
-from formulations.proofs.every_motion.relaxation.relaxed_problem import DOWN, UP, RelaxedProblem
+from formulations.proofs.every_motion.relaxation.relaxed_problem import DOWN, UP
 
 _ALLOWANCE = 64.0 * 2.0**-53
-_WIDEST = 7  # coefficients of a row, but (5)
+_WIDEST = 9  # coefficients of a row, but (5)
 
 
-class Frame:
-    """The variables of one relaxed problem in its boxes: their order, their units and their rows.
-
-    Attributes
-    ----------
-    T, inverse, square : Indices, shape (K,)
-        Columns of the durations, of 1 / T and of T^2, all in units of ``typical``.
-    v, a : Indices, shape (K + 1, n)
-        Columns of velocities and accelerations, in units of the limits of ``relaxed``.
-    W : Indices, shape (K, n, 2)
-        Columns of T a at both ends, in units of T and a.
-    box : Array, shape (size, 2)
-        Lower and upper bound of every variable.
-    cost : Array, shape (size,)
-        The total time [s].
-    """
-
-    def __init__(self, relaxed: RelaxedProblem, boxes: Boxes, typical: Array) -> None:
-        """Set up the variables.
-
-        Parameters
-        ----------
-        relaxed : RelaxedProblem
-        boxes : Boxes
-            They hold every motion of at most ``relaxed.horizon`` seconds.
-        typical : Array, shape (K,) [s]
-            The unit of each duration.
-        """
-        self.relaxed, self.boxes, self.typical = relaxed, boxes, typical
-        durations, accelerations = boxes.durations, boxes.accelerations
-        K, n = self.K, self.n = relaxed.displacements.shape
-        ends = np.cumsum([K, K, K, (K + 1) * n, (K + 1) * n, 2 * K * n])
-        self.size = int(ends[-1])
-        numbers = np.split(np.arange(self.size), ends[:-1])
-        self.T, self.inverse, self.square = numbers[:3]
-        self.v, self.a = (block.reshape(K + 1, n) for block in numbers[3:5])
-        self.W = numbers[5].reshape(K, n, 2)
-        self.low, self.high = durations[:, 0] / typical * DOWN, durations[:, 1] / typical * UP
-        # velocities and accelerations in units of their limits, W = T a in those of T and a
-        share = accelerations / relaxed.acceleration[:, None]
-        self.least_a = share[..., 0] - np.abs(share[..., 0]) * (UP - 1.0)
-        self.most_a = share[..., 1] + np.abs(share[..., 1]) * (UP - 1.0)
-        for bound in (self.least_a, self.most_a):
-            bound[[0, -1]] = 0.0
-            bound[:, ~relaxed.has_jerk] = 0.0
-        self.box = self._boxes()
-        self.cost = np.zeros(self.size)
-        self.cost[self.T] = typical
-        self._sizes = np.abs(self.box).max(axis=1)
-        # dv/ds = T a and dW/ds = T^2 j in units of the velocity limit, and d / T, at typical durations
-        scale = typical[:, None]
-        self.ramp = scale * (relaxed.acceleration / relaxed.velocity)
-        self.bend = scale**2 * (relaxed.jerk / relaxed.velocity)
-        self.distance = relaxed.displacements / relaxed.velocity / scale
-        self.room = relaxed.room / relaxed.velocity[:, None]
-
-    def _boxes(self) -> Array:
-        low, high = self.low, self.high
-        box = np.zeros((self.size, 2))
-        box[self.T] = np.stack([low, high], axis=1)
-        box[self.inverse] = np.stack([1.0 / high * DOWN, 1.0 / low * UP], axis=1)
-        box[self.square] = np.stack([low**2 * DOWN, high**2 * UP], axis=1)
-        box[self.v[1:-1]] = (-1.0, 1.0)
-        box[self.a] = np.stack([self.least_a, self.most_a], axis=-1)
-        most = np.maximum(-self.least_a, self.most_a)
-        for end in (0, 1):
-            reach = most[end : self.K + end] * high[:, None] * UP
-            box[self.W[:, :, end]] = np.stack([-reach, reach], axis=-1)
-        return box
+class Frame(Columns):
+    """The rows of one relaxed problem in its boxes."""
 
     def fixed(self) -> Rows:
-        """Rows (5) and (6)."""
+        """Rows (5) and (6); the bounds of the sums before waypoints come last."""
         low, high, one = self.low, self.high, np.ones(self.K)
         share = list(self.typical[:, None] / self.relaxed.horizon)
         total = self._rows([np.array([column]) for column in self.T], share, np.ones(1))
         columns = [self.inverse, self.T]
         secants = self._rows(columns, [one, 1.0 / (low * high)], 1.0 / low + 1.0 / high).normal()
-        return Rows.joined([total.rows(self.size), secants.rows(self.size)])
+        blocks = [total.rows(self.size), secants.rows(self.size)]
+        for i, side in self.bounded_sums:
+            bound = float(self.relaxed.arrivals[i, side])
+            sign = 1.0 if side else -1.0
+            terms = list(sign * self.typical[:i, None])
+            row = self._rows([np.array([c]) for c in self.T[:i]], terms, np.array([sign * bound]))
+            blocks.append(row.rows(self.size))
+        return Rows.joined(blocks)
+
+    @property
+    def bounded_sums(self) -> list[tuple[int, int]]:
+        """Waypoints and sides (0 earliest, 1 latest) whose arrival is bounded, in the order of rows (5)."""
+        arrivals = self.relaxed.arrivals[1:]
+        asked = (arrivals > 0.0) & np.isfinite(arrivals)
+        return [(i + 1, side) for i, side in np.argwhere(asked).tolist()]
 
     def of(self, cuts: Cuts) -> Rows:
         """Compute one row for each cut, in the order of the table.
@@ -164,6 +117,8 @@ class Frame:
             return self._of_duration(kind, cuts)
         if kind in PRODUCTS:
             return self._product(kind.end, cuts)
+        if kind in ZONES:
+            return self._zone(kind.end, cuts)
         if kind in PEAKS:
             return self._peak(kind.end, cuts)
         if kind in STOPS:
@@ -199,13 +154,24 @@ class Frame:
         columns = [self.W[k, j, end], self.a[k + end, j], self.T[k]]
         return self._rows(columns, [-side, side * t, side * e], side * t * e)
 
+    def _zone(self, end: int, cuts: Cuts) -> Terms:
+        k, j, corner = cuts.segment, cuts.joint, cuts.at[:, 0]
+        u = np.where(corner % 2 == 0, 1.0 / self.high[k] * DOWN, 1.0 / self.low[k] * UP)
+        upper = (corner == 1) | (corner == 2)
+        f = np.where(upper, self.e_high[k + end, j], self.e_low[k + end, j])
+        side = np.where(corner < 2, 1.0, -1.0)
+        columns = [self.p[k, j, end], self.e[k + end, j], self.inverse[k]]
+        return self._rows(columns, [-side, side * u, side * f], side * u * f)
+
     def _peak(self, end: int, cuts: Cuts) -> Terms:
         k, j = cuts.segment, cuts.joint
         _require(self.relaxed.has_jerk[j])
         c = cuts.at[:, 0] * self.typical[k] / self.relaxed.acceleration[j]
-        share = self.ramp[k, j] ** 2 / self.bend[k, j]
+        share = self.ramp[k, j] ** 2 / self.peak_bend[k, j]
         columns = [self.v[k + end, j], self.W[k, j, end], self.square[k]]
-        return self._rows(columns, [cuts.sign, share * c, -0.5 * share * c**2], np.ones(len(cuts)))
+        top = self.top[:, j, _forwards(cuts.sign)].max(axis=0)
+        sound = np.where(self.has_room[k + end, j], top, np.inf)  # LinearProgram leaves such rows out
+        return self._rows(columns, [cuts.sign, share * c, -0.5 * share * c**2], sound)
 
     def _stop(self, end: int, cuts: Cuts) -> Terms:
         k, j, sign = cuts.segment, cuts.joint, cuts.sign
@@ -213,10 +179,14 @@ class Frame:
         # with time turned W changes its sign, and the joint comes from where it would go
         c_W = -c_W if end else c_W
         _require(self.relaxed.has_jerk[j] | (c_J == 0.0))
-        room = self.room[k + end, j, ((sign > 0.0) != bool(end)).astype(int)] / self.typical[k]
-        columns = [self.v[k + end, j], self.W[k, j, end], self.inverse[k], self.T[k], self.square[k]]
+        side = ((sign > 0.0) != bool(end)).astype(int)  # of the limit: 0 lower, 1 upper
+        room = self.room[k, end, j, side] / self.typical[k]
         ramp, bend = self.ramp[k, j], self.bend[k, j]
-        a = [sign * c_v, sign * c_W * ramp, -room, -c_A * ramp, -c_J * bend]
+        away = self.ramps[k, j, 1 - side]  # the acceleration that points away from the limit
+        columns = [self.v[k + end, j], self.W[k, j, end], self.inverse[k], self.T[k], self.square[k]]
+        a = [sign * c_v, sign * c_W * ramp, -room, -c_A * away, -c_J * bend]
+        columns.append(np.maximum(self.p[k, j, end], 0))
+        a.append(np.where(side == 1, 1.0, -1.0) * self.shift[k, j, end])
         return self._rows(columns, a, np.zeros(len(k)))
 
     def _speed(self, cuts: Cuts) -> Terms:
@@ -225,18 +195,25 @@ class Frame:
         _require(self.relaxed.has_jerk[j] | (c_J == 0.0))
         ramp, bend = self.ramp[k, j], self.bend[k, j]
         columns = [self.v[k + 1, j], self.v[k, j], self.W[k, j, 0], self.W[k, j, 1]]
-        a = [sign, -sign, -sign * c_W0 * ramp, -sign * c_W1 * ramp, -c_A * ramp, -c_J * bend]
+        a = [sign, -sign, -sign * c_W0 * ramp, -sign * c_W1 * ramp]
+        a += [-c_A * self.ramps[k, j, _forwards(sign)], -c_J * bend]
         return self._rows([*columns, self.T[k], self.square[k]], a, np.zeros(len(k)))
 
     def _distance(self, cruises: bool, cuts: Cuts) -> Terms:
         k, j, sign = cuts.segment, cuts.joint, cuts.sign
-        c_v0, c_W0, c_v1, c_W1, c_V, c_A, c_J = distance_coefficients(cuts.at, cruises)
+        c_v0, c_W0, c_v1, c_W1, c_V, _, c_J = distance_coefficients(cuts.at, cruises)
+        rising, falling = arc_coefficients(cuts.at, cruises)
         _require(self.relaxed.has_jerk[j] | (c_J == 0.0))
-        ramp, bend = self.ramp[k, j], self.bend[k, j]
+        ramp, bend, forwards = self.ramp[k, j], self.bend[k, j], _forwards(sign)
+        arcs = rising * self.ramps[k, j, forwards] + falling * self.ramps[k, j, 1 - forwards]
         columns = [self.inverse[k], self.v[k, j], self.v[k + 1, j], self.W[k, j, 0], self.W[k, j, 1]]
         a = [sign * self.distance[k, j], -sign * c_v0, -sign * c_v1, -sign * c_W0 * ramp]
-        a += [-sign * c_W1 * ramp, -c_A * ramp, -c_J * bend]
-        return self._rows([*columns, self.T[k], self.square[k]], a, c_V)
+        a += [-sign * c_W1 * ramp, -arcs, -c_J * bend]
+        columns += [self.T[k], self.square[k]]
+        for end, side in ((0, -sign), (1, sign)):
+            columns.append(np.maximum(self.p[k, j, end], 0))
+            a.append(side * self.shift[k, j, end])  # 0 where there is no zone
+        return self._rows(columns, a, c_V * self.top[k, j, forwards])
 
     def corner(self, cuts: Cuts, end: int) -> tuple[Array, Array, Array]:
         """Return the bounds t and e of products (9) and the sign of their rows.
@@ -255,7 +232,7 @@ class Frame:
         k, j, corner = cuts.segment, cuts.joint, cuts.at[:, 0]
         t = np.where(corner % 2 == 0, self.low[k], self.high[k])
         upper = (corner == 1) | (corner == 2)
-        e = np.where(upper, self.most_a[k + end, j], self.least_a[k + end, j])
+        e = np.where(upper, self.a_high[k + end, j], self.a_low[k + end, j])
         return t, e, np.where(corner < 2, 1.0, -1.0)
 
     def _rows(self, columns: list[Indices], coefficients: list[Array], upper: Array) -> Terms:
@@ -265,6 +242,11 @@ class Frame:
         size = (moduli * self._sizes[where]).sum(axis=1) + np.abs(upper)
         largest = moduli.max(axis=1, initial=0.0)
         return Terms(where, a, upper + _ALLOWANCE * size, np.ones(len(upper)), largest)
+
+
+def _forwards(sign: Array) -> Indices:
+    """The side of a limit that a sign chooses: 1 forwards, 0 backwards."""
+    return (sign > 0.0).astype(np.intp)
 
 
 def _require(sound: Truths) -> None:

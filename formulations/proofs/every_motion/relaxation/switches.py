@@ -1,9 +1,9 @@
 """The motion that goes farthest in one segment: where its jerk switches.
 
-One joint from (v0, W0) to (v1, W1) in unit time, |v| <= V, |W| <= A, |dW/ds| <= J. Raising W as fast
+One joint from (v0, W0) to (v1, W1) in unit time, v <= V, -A' <= W <= A, |dW/ds| <= J. Raising W as fast
 and lowering it as late as the ends allow puts the largest mean of v at
 
-    W(s) = max(min(W0 + J s, A, J (c - s)), -A, W1 - J (1 - s))                                  (4)
+    W(s) = max(min(W0 + J s, A, J (c - s)), -A', W1 - J (1 - s))                                 (4)
 
 with the unique c for which v ends at v1. If v would exceed V, the joint goes from either end to V in the
 quickest way and cruises in between.
@@ -21,7 +21,16 @@ _STEPS = 12  # of Newton's method, enough for a cut
 
 
 def farthest(
-    v0: Array, W0: Array, v1: Array, W1: Array, V: Array, A: Array, J: Array, steps: int = _STEPS
+    v0: Array,
+    W0: Array,
+    v1: Array,
+    W1: Array,
+    V: Array,
+    A: Array,
+    J: Array,
+    steps: int = _STEPS,
+    *,
+    down: Array | None = None,
 ) -> tuple[Array, Truths]:
     """Find the motion that goes farthest.
 
@@ -33,6 +42,8 @@ def farthest(
         Limits in unit time.
     steps : int
         Of Newton's method.
+    down : Array, shape (m,), optional
+        Greatest acceleration against the motion; A where it is left out.
 
     Returns
     -------
@@ -41,11 +52,12 @@ def farthest(
     cruises : Truths, shape (m,)
         Whether there is a piece at top speed.
     """
-    c = _end_speed_met(v1 - v0, W0, W1, A, J, steps)
-    s1, s2, s5, s6 = _corners(c, W0, W1, A, J)
-    peak = v0 + _gains(c, W0, W1, A, J)[0]
-    start = _to_top_speed(v0, W0, V, A, J)
-    end = [1.0 - s for s in _to_top_speed(v1, -W1, V, A, J)]
+    both = (A, A if down is None else down)
+    c = _end_speed_met(v1 - v0, W0, W1, both, J, steps)
+    s1, s2, s5, s6 = _corners(c, W0, W1, both, J)
+    peak = v0 + _gains(c, W0, W1, both, J)[0]
+    start = _to_top_speed(v0, W0, V, both[0], J)
+    end = [1.0 - s for s in _to_top_speed(v1, -W1, V, both[1], J)]
     cruises = (peak > V) & (c > 0.0) & (c < 1.0) & (start[2] <= end[2])
     six = np.where(cruises, [*start, *end[::-1]], [s1, s2, s5, s2, s5, s6])
     six = np.where(np.isfinite(six), six, 0.5).clip(0.0, 1.0).T
@@ -76,7 +88,9 @@ def fastest(W0: Array, W1: Array, A: Array, J: Array) -> Array:
     return np.maximum.accumulate(two, axis=1)
 
 
-def farthest_without_jerk(v0: Array, v1: Array, V: Array, A: Array) -> tuple[Array, Truths]:
+def farthest_without_jerk(
+    v0: Array, v1: Array, V: Array, A: Array, *, down: Array | None = None
+) -> tuple[Array, Truths]:
     """Find the motion that goes farthest without a jerk limit: accelerate, cruise, brake.
 
     Parameters
@@ -85,6 +99,8 @@ def farthest_without_jerk(v0: Array, v1: Array, V: Array, A: Array) -> tuple[Arr
         Velocities at both ends.
     V, A : Array, shape (m,)
         Limits in unit time.
+    down : Array, shape (m,), optional
+        Greatest acceleration against the motion; A where it is left out.
 
     Returns
     -------
@@ -93,13 +109,14 @@ def farthest_without_jerk(v0: Array, v1: Array, V: Array, A: Array) -> tuple[Arr
     cruises : Truths, shape (m,)
         Whether there is a piece at top speed.
     """
-    up, down = (V - v0) / A, 1.0 - (V - v1) / A
-    middle = 0.5 * (1.0 + (v1 - v0) / A)
-    cruises = up < down
+    B = A if down is None else down
+    up, fall = (V - v0) / A, 1.0 - (V - v1) / B
+    middle = (B + (v1 - v0)) / (A + B)
+    cruises = up < fall
     up = np.where(cruises, up, middle).clip(0.0, 1.0)
-    down = np.maximum(np.where(cruises, down, middle).clip(0.0, 1.0), up)
+    fall = np.maximum(np.where(cruises, fall, middle).clip(0.0, 1.0), up)
     zero, one = np.zeros_like(up), np.ones_like(up)
-    return np.stack([zero, up, up, down, down, one], axis=1), cruises
+    return np.stack([zero, up, up, fall, fall, one], axis=1), cruises
 
 
 def soonest_stop(v0: Array, W0: Array, A: Array, J: Array) -> Array:
@@ -110,7 +127,7 @@ def soonest_stop(v0: Array, W0: Array, A: Array, J: Array) -> Array:
     v0, W0 : Array, shape (m,)
         The state to stop from.
     A, J : Array, shape (m,)
-        Limits in unit time; with an infinite J, W is -A at once.
+        Limits in unit time, A of the acceleration against the motion; with an infinite J, W is -A at once.
 
     Returns
     -------
@@ -127,31 +144,36 @@ def soonest_stop(v0: Array, W0: Array, A: Array, J: Array) -> Array:
     return np.maximum.accumulate(np.stack([s1, s2], axis=1).clip(0.0, 1.0), axis=1)
 
 
-def _end_speed_met(gain: Array, W0: Array, W1: Array, A: Array, J: Array, steps: int) -> Array:
+def _end_speed_met(
+    gain: Array, W0: Array, W1: Array, both: tuple[Array, Array], J: Array, steps: int
+) -> Array:
     """The c of (4) that gains this much speed: Newton's method, and bisection outside its bracket."""
     low = W0 / J
     high = np.maximum(1.0 + W1 / J, low)
     c = 0.5 * (low + high)
     for _ in range(steps):
-        s2, s5 = _corners(c, W0, W1, A, J)[1:3]
-        excess = _gains(c, W0, W1, A, J)[1] - gain
+        s2, s5 = _corners(c, W0, W1, both, J)[1:3]
+        excess = _gains(c, W0, W1, both, J)[1] - gain
         low, high = np.where(excess < 0.0, c, low), np.where(excess > 0.0, c, high)
         step = c - excess / np.maximum(J * (s5 - s2), 1e-300)
         c = np.where((step >= low) & (step <= high), step, 0.5 * (low + high))
     return c
 
 
-def _corners(c: Array, W0: Array, W1: Array, A: Array, J: Array) -> tuple[Array, Array, Array, Array]:
-    """Breaks of (4): W is A from s1 to s2 and -A from s5 to s6."""
+def _corners(
+    c: Array, W0: Array, W1: Array, both: tuple[Array, Array], J: Array
+) -> tuple[Array, Array, Array, Array]:
+    """Breaks of (4): W is A from s1 to s2 and -A' from s5 to s6; both: A and A'."""
+    A, B = both
     s1, s2, middle = (A - W0) / J, c - A / J, 0.5 * (c - W0 / J)
     s1, s2 = np.where(s2 < s1, middle, s1), np.where(s2 < s1, middle, s2)
-    s5, s6, middle = c + A / J, 1.0 - (A + W1) / J, 0.5 * (c + 1.0 - W1 / J)
+    s5, s6, middle = c + B / J, 1.0 - (B + W1) / J, 0.5 * (c + 1.0 - W1 / J)
     return s1, s2, np.where(s5 > s6, middle, s5), np.where(s5 > s6, middle, s6)
 
 
-def _gains(c: Array, W0: Array, W1: Array, A: Array, J: Array) -> tuple[Array, Array]:
+def _gains(c: Array, W0: Array, W1: Array, both: tuple[Array, Array], J: Array) -> tuple[Array, Array]:
     """Integral of (4) up to its zero at c, and up to 1."""
-    s1, s2, s5, s6 = _corners(c, W0, W1, A, J)
+    s1, s2, s5, s6 = _corners(c, W0, W1, both, J)
     high, low = W0 + J * s1, W1 - J * (1.0 - s6)
     first = 0.5 * (W0 + high) * s1 + high * (s2 - s1)
     to_zero = first + 0.5 * high * (c - s2)

@@ -1,9 +1,9 @@
 """Narrower boxes for the motions that take at most the horizon, and with them a tighter relaxation.
 
-Each bound of a duration, or of an acceleration at a waypoint, is itself the optimum of the relaxation
-for another cost, and it is certified in the same way (optimality-based bound tightening). What the rows
-(6), (8) and (9) lose is proportional to the product of two boxes' widths. So every box that has become
-narrower is used at once, in the rows of the next program.
+Each bound of a duration, or of an acceleration or a position at a waypoint, is itself the optimum of the
+relaxation for another cost, and it is certified in the same way (optimality-based bound tightening). What
+the rows (6), (8), (9) and (11) lose is proportional to the product of two boxes' widths. So every box that
+has become narrower is used at once, in the rows of the next program.
 
 References
 ----------
@@ -18,11 +18,12 @@ from typing import Protocol
 import numpy as np
 
 from formulations.deadlines import Deadline
-from formulations.proofs.every_motion.relaxation.boxes import Boxes
-from formulations.proofs.every_motion.relaxation.cuts import PRODUCTS, Cuts
+from formulations.proofs.every_motion.relaxation.boxes import Boxes, joined_ends
+from formulations.proofs.every_motion.relaxation.cuts import PRODUCTS, ZONES, Cuts, Kind
 from formulations.proofs.every_motion.relaxation.linear_program import LinearProgram, LPSolution
 from formulations.proofs.every_motion.relaxation.propagation import propagate
 from formulations.proofs.every_motion.relaxation.relaxed_problem import UP
+from formulations.proofs.every_motion.relaxation.rows import Frame
 
 FEW, MANY = 3, 15  # rounds of cuts for one bound: to begin with, and where few gain nothing
 _TOLERANCE = 1e-6
@@ -47,7 +48,8 @@ def tighten(
 ) -> tuple[Boxes, Cuts]:
     """Narrow the boxes of a program without losing a motion, as far as the time goes.
 
-    All durations are narrowed, and those accelerations whose products (9) have a multiplier.
+    All durations are narrowed, and those accelerations and positions whose products (9) and (11) have a
+    multiplier.
 
     Parameters
     ----------
@@ -65,17 +67,16 @@ def tighten(
     cuts : Cuts
         Of the last program.
     """
-    frame = program.frame
-    wanted = [(0, k, 0) for k in range(frame.K)]
-    wanted += [(1, k, j) for k, j in _with_multiplier(program, solution)]
-    for of_acceleration, k, j in wanted:
+    wanted = [("durations", k, 0) for k in range(program.frame.K)]
+    for name, kinds in (("accelerations", PRODUCTS), ("offsets", ZONES)):
+        wanted += [(name, k, j) for k, j in _with_multiplier(program, solution, kinds)]
+    for name, k, j in wanted:
         frame, boxes = program.frame, program.frame.boxes
-        durations, accelerations = boxes.durations.copy(), boxes.accelerations.copy()
-        if of_acceleration:
-            column, interval = int(frame.a[k, j]), accelerations[k, j]
-            unit = float(frame.relaxed.acceleration[j])
-        else:
-            column, interval, unit = int(frame.T[k]), durations[k], float(frame.typical[k])
+        narrowed = {
+            key: getattr(boxes, key).copy() for key in ("durations", "accelerations", "offsets")
+        }
+        interval = narrowed[name][k] if name == "durations" else narrowed[name][k, j]
+        column, unit = _column(frame, name, k, j)
         for side, sign in ((0, 1.0), (1, -1.0)):
             if deadline.over:
                 return boxes, program.cuts
@@ -85,12 +86,14 @@ def tighten(
             if record is not None:
                 record.narrowed(program, column, side, found)
             if found.empty:
-                return Boxes(durations, accelerations, empty=True), program.cuts
+                return Boxes(**narrowed, empty=True), program.cuts
             bound = sign * found.bound * unit
             bound -= sign * (UP - 1.0) * abs(bound)
             interval[side] = max(interval[0], bound) if side == 0 else min(interval[1], bound)
         empty = bool(interval[0] > interval[1])
-        boxes = propagate(frame.relaxed, Boxes(durations, accelerations, empty))
+        for key in ("accelerations", "offsets"):
+            narrowed[key] = joined_ends(frame.relaxed, narrowed[key])
+        boxes = propagate(frame.relaxed, Boxes(**narrowed, empty=empty))
         if record is not None:
             record.renewed()
         if boxes.empty:
@@ -99,12 +102,26 @@ def tighten(
     return program.frame.boxes, program.cuts
 
 
-def _with_multiplier(program: LinearProgram, solution: LPSolution) -> list[tuple[int, int]]:
-    """Waypoints and joints whose product rows have a multiplier."""
+def _column(frame: Frame, name: str, k: int, j: int) -> tuple[int, float]:
+    """The column of a variable and its unit."""
+    if name == "durations":
+        return int(frame.T[k]), float(frame.typical[k])
+    if name == "accelerations":
+        return int(frame.a[k, j]), float(frame.relaxed.acceleration[j])
+    return int(frame.e[k, j]), float(frame.relaxed.zones[k, j])
+
+
+def _with_multiplier(
+    program: LinearProgram, solution: LPSolution, kinds: tuple[Kind, Kind]
+) -> list[tuple[int, int]]:
+    """Waypoints and joints whose rows of these kinds have a multiplier."""
+    last = program.frame.K
     cuts, y = program.cuts, solution.multipliers[program.n_fixed :]
     found = set()
-    for kind in PRODUCTS:
+    for kind in kinds:
         carries = (cuts.kind == kind) & (y > 1e-9 * np.abs(y).max(initial=0.0))
-        waypoints = (cuts.segment[carries] + kind.end).tolist()
-        found |= set(zip(waypoints, cuts.joint[carries].tolist(), strict=True))
+        waypoints = cuts.segment[carries] + kind.end
+        if program.frame.relaxed.cyclic:
+            waypoints = waypoints % last
+        found |= set(zip(waypoints.tolist(), cuts.joint[carries].tolist(), strict=True))
     return sorted(found)

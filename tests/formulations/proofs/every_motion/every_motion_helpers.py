@@ -13,7 +13,7 @@ from formulations import FAMILIES, REFERENCES, FreeFormBound, Limits, Problem, T
 from formulations.problem.arrays import Array
 from formulations.proofs.every_motion.closed_forms import least_durations, stop_and_go_durations
 from formulations.proofs.every_motion.relaxation.boxes import Boxes
-from formulations.proofs.every_motion.relaxation.cuts import Cuts, Kind
+from formulations.proofs.every_motion.relaxation.cuts import PRODUCTS, ZONES, Cuts, Kind
 from formulations.proofs.every_motion.relaxation.relaxed_problem import RelaxedProblem
 from formulations.proofs.every_motion.relaxation.rows import Frame
 from formulations.references.ruckig_ import pieces_of
@@ -144,7 +144,7 @@ def random_cuts(frame: Frame, rng: np.random.Generator, m: int = 80) -> Cuts:
         plain = np.stack([0.0 * k, at[:, 1], at[:, 1], late, late, 0.0 * k + 1.0], axis=1)
         if kind in (Kind.TANGENT, Kind.HULL):
             at = (low + rng.random(m) ** 3 * (high - low))[:, None]
-        elif kind in (Kind.PRODUCT_AT_START, Kind.PRODUCT_AT_END):
+        elif kind in (*PRODUCTS, *ZONES):
             at = rng.integers(4, size=(m, 1)).astype(np.float64)
         elif kind in (Kind.PEAK_AT_START, Kind.PEAK_AT_END):
             at = (rng.normal(size=m) * frame.relaxed.acceleration[j] / frame.typical[k])[:, None]
@@ -158,7 +158,9 @@ def random_cuts(frame: Frame, rng: np.random.Generator, m: int = 80) -> Cuts:
         if kind in (Kind.PEAK_AT_START, Kind.PEAK_AT_END):
             cuts = cuts[limited[:, 0]]
         if kind in (Kind.STOP_AT_START, Kind.STOP_AT_END):
-            cuts = cuts[np.isfinite(frame.relaxed.room).all(axis=(0, 2))[j]]
+            cuts = cuts[np.isfinite(frame.relaxed.room).all(axis=(0, 1, 3))[j]]
+        if kind in ZONES:
+            cuts = cuts[frame.p[cuts.segment, cuts.joint, kind.end] >= 0]
         found.append(cuts)
     return Cuts.joined(found)
 

@@ -20,7 +20,7 @@ from scipy.optimize import linprog
 
 from compare.check_certificate.answers import Refused
 from compare.check_certificate.balls import R
-from compare.check_certificate.families import accelerations
+from compare.check_certificate.families.every_motion import accelerations
 from compare.check_certificate.verify import verify
 from formulations import Problem, check, free_form, free_form_bound
 from formulations.problem.arrays import Array
@@ -120,9 +120,11 @@ def test_the_checker_derives_the_same_box(
 ) -> None:
     (d, e), J = ways, 7.0
     durations = np.array([low, np.multiply(low, wider)]).T
-    ours = propagation._upper_sides(np.array([[d], [e]]), np.array([J]), durations)[0, 0]
+    ours = propagation._upper_sides(np.array([[d]]), np.array([[e]]), np.array([[J], [J]]), durations)[
+        0, 0
+    ]
     T, U = ((R(float(a)), R(float(b))) for a, b in durations)
-    theirs = float(accelerations.greatest(R(d), R(e), R(J), T, U))
+    theirs = float(accelerations.greatest(R(d), R(e), (R(J), R(J)), T, U))
     size = J + max(abs(d), abs(e)) / min(low) ** 2
     assert theirs <= ours <= theirs + 1e-13 * size
 
@@ -131,7 +133,7 @@ def test_the_checker_derives_the_same_box(
 def test_a_jerk_term_too_small_loses_a_motion(monkeypatch: pytest.MonkeyPatch, factor: float) -> None:
     """The fault that the tests above must notice: with it the steepest motion is outside its box."""
     true = propagation._upper_sides
-    monkeypatch.setattr(propagation, "_upper_sides", lambda d, J, T: true(d, factor * J, T))
+    monkeypatch.setattr(propagation, "_upper_sides", lambda d, e, J, T: true(d, e, factor * J, T))
     problem = problem_of([[0.0], [1.0], [0.0], [1.0]], 1e3, 1e4, 30.0)
     durations = np.array([1.0, 1.2, 1.0])
     lost = (
@@ -146,7 +148,7 @@ def test_the_checker_refuses_a_proof_with_boxes_too_narrow(monkeypatch: pytest.M
     honest = free_form_bound(problem, gap=1e-3, time_limit=10.0, record=True)
     assert "takes" in verify(honest.certificate)
     true = propagation._upper_sides
-    monkeypatch.setattr(propagation, "_upper_sides", lambda d, J, T: true(d, 0.3 * J, T))
+    monkeypatch.setattr(propagation, "_upper_sides", lambda d, e, J, T: true(d, e, 0.3 * J, T))
     wrong = free_form_bound(problem, gap=1e-3, upper=honest.upper, time_limit=10.0, record=True)
     assert wrong.seconds > honest.upper  # a bound above a verified motion
     with pytest.raises(Refused):
@@ -210,5 +212,7 @@ def test_numbers_that_underflow_or_overflow_lose_no_motion(size: float) -> None:
     T = size ** (1.0 / 3.0)
     durations = np.array([[T, T], [T, T]])
     with np.errstate(all="ignore"):
-        top = propagation._upper_sides(np.array([[size], [-size]]), np.array([30.0]), durations)[0, 0]
+        top = propagation._upper_sides(
+            np.array([[size]]), np.array([[-size]]), np.full((2, 1), 30.0), durations
+        )[0, 0]
     assert not top < (-2.0 + 10.0) * T * (1.0 - 1e-13)

@@ -25,7 +25,7 @@ from every_motion_helpers import (
 from compare.check_certificate.__main__ import BAD_INPUT, CERTIFIED, REFUSED, main
 from compare.check_certificate.answers import Refused
 from compare.check_certificate.claim import Claim
-from compare.check_certificate.families.relaxation import Relaxation
+from compare.check_certificate.families.every_motion.relaxation import Relaxation
 from compare.studies.free_form_study import random_problems
 from formulations import (
     CASES,
@@ -198,8 +198,8 @@ def violations(
         if key[0] != "W" or checker.J[key[2]] is not None:
             lo, hi = (float(end) for end in checker.box(key))
             assert lo - 1e-9 * (1.0 + abs(lo)) <= value <= hi + 1e-9 * (1.0 + abs(hi)), key
-    for j in checker.A:
-        checker.A[j] *= shrink
+    for k, row in checker.A.items():
+        checker.A[k] = [tuple(shrink * x for x in pair) for pair in row]
     count = 0
     for _ in range(300):
         raw = any_row(checker, rng)

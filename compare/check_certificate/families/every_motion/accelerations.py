@@ -1,12 +1,12 @@
 """The acceleration at a waypoint, from the durations of the two segments that meet there.
 
-A joint comes by d in T seconds and leaves by e in U seconds, |jerk| <= J. Seen from the waypoint with
-velocity v and acceleration a, both positions are those of constant acceleration but for J t^3 / 6:
+A joint comes by d in T seconds, |jerk| <= J, and leaves by e in U seconds, |jerk| <= K. Seen from the waypoint
+with velocity v and acceleration a, both positions are those of constant acceleration but for a cubic term:
 
-    e = v U + a U^2 / 2 +- J U^3 / 6,        d = v T - a T^2 / 2 +- J T^3 / 6.
+    e = v U + a U^2 / 2 +- K U^3 / 6,        d = v T - a T^2 / 2 +- J T^3 / 6.
 
 T times the first minus U times the second has no v: a T U (T + U) / 2 differs from e T - d U by at most
-J T U (T^2 + U^2) / 6. So a <= N / D, N = 2 (e T - d U) + J T U (T^2 + U^2) / 3, D = T U (T + U). With
+T U (J T^2 + K U^2) / 6. So a <= N / D, N = 2 (e T - d U) + T U (J T^2 + K U^2) / 3, D = T U (T + U). With
 T = l + x (h - l) and U likewise, N and D are mixtures of their Bernstein coefficients of degree 3 with
 the same weights. Those of D are positive, so N / D is at most the greatest ratio.
 """
@@ -22,14 +22,15 @@ from compare.check_certificate.balls import R, most
 _DEGREE = 3
 
 
-def greatest(d: Any, e: Any, J: Any, T: tuple[Any, Any], U: tuple[Any, Any]) -> Any:
+def greatest(d: Any, e: Any, J: tuple[Any, Any], T: tuple[Any, Any], U: tuple[Any, Any]) -> Any:
     """Bound the acceleration at a waypoint from above.
 
     Parameters
     ----------
     d, e : arb [rad]
         Displacements before and after the waypoint.
-    J : arb [rad/s^3]
+    J : tuple of two arb [rad/s^3]
+        Jerk limits before and after.
     T, U : tuple of two arb [s]
         Intervals of the durations, above 0.
 
@@ -40,7 +41,7 @@ def greatest(d: Any, e: Any, J: Any, T: tuple[Any, Any], U: tuple[Any, Any]) -> 
     t, u = [bernstein(p, *T) for p in range(4)], [bernstein(p, *U) for p in range(4)]
     ratios = []
     for i, k in product(range(_DEGREE + 1), repeat=2):
-        jerk = J * (t[3][i] * u[1][k] + t[1][i] * u[3][k]) / 3
+        jerk = (J[0] * t[3][i] * u[1][k] + J[1] * t[1][i] * u[3][k]) / 3
         above = 2 * (e * t[1][i] * u[0][k] - d * t[0][i] * u[1][k]) + jerk
         ratios.append(above / (t[2][i] * u[1][k] + t[1][i] * u[2][k]))
     return most(*ratios)

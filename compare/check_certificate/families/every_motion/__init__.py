@@ -1,0 +1,8 @@
+"""The checker of a bound of every motion: inequalities that each motion keeps, and sums of them.
+
+course         waypoints between which time passes, and the limits of what lies between two of them
+implied        limits that follow from others
+accelerations  the acceleration at a waypoint, from the durations of the two segments that meet there
+inequalities   every row, built anew
+relaxation     boxes, and the events that narrow them
+"""

@@ -1,0 +1,140 @@
+"""Every motion that keeps the demands of a claim: a linear relaxation, and sums of its inequalities.
+
+The claim: no motion of at most H seconds takes L or less. ``inequalities`` states what every motion obeys.
+For multipliers >= 0, the cost plus the weighted sum of the rows is linear in bounded variables: its least
+value is a lower bound of the cost. An event narrows one variable so, or ends the proof. The module
+``accelerations`` narrows accelerations without a sum.
+"""
+
+from __future__ import annotations
+
+from itertools import pairwise
+from typing import Any
+
+from compare.check_certificate.answers import BadInput, Refused, need
+from compare.check_certificate.balls import R, least, most
+from compare.check_certificate.claim import Claim
+from compare.check_certificate.families.every_motion.accelerations import greatest
+from compare.check_certificate.families.every_motion.frame import Variable
+from compare.check_certificate.families.every_motion.inequalities import Inequalities
+from compare.check_certificate.reading import index, items, number
+
+MOST_ROWS = 1_000_000
+
+
+class Relaxation(Inequalities):
+    """Boxes that the events narrow; sum: the rows of the last sum, which ends the proof."""
+
+    def __init__(self, claim: Claim) -> None:
+        H = number(claim.horizon)
+        need(H >= claim.L, "the horizon is below the bound")
+        super().__init__(claim, H)
+        self.sum: list[Any] = []
+
+    def replay(self) -> int:
+        """Verify every event; returns the number of rows with multipliers."""
+        count, pending = 0, dict(self.boxes)
+        for place, raw in enumerate(self.claim.events, 1):
+            event, where = items(raw, 1, 6), f"event {place}"
+            letter = str(event[0])
+            if letter in ("R", "P"):
+                if letter == "P" and self._propagate(pending):
+                    return count  # nothing is left
+                self.boxes = dict(pending)
+                continue
+            rows = items(event[-1], 0, MOST_ROWS)
+            count += len(rows)
+            self.sum = rows
+            if letter == "N":
+                key, side = self._narrowed(event)
+                bound = self.least({key: R(-1 if side else 1)}, rows)
+                need(bound.is_finite(), f"{where}: the box is not narrowed")
+                lo, hi = pending[key]
+                pending[key] = (
+                    (lo, least(hi, (-bound).upper())) if side else (most(lo, bound.lower()), hi)
+                )
+                if pending[key][0] > pending[key][1]:
+                    return count  # nothing is left
+            elif letter == "F":
+                total = self.least({("T", k): R(1) for k in self.ks}, rows)
+                need(total + self.waits > self.claim.L, f"{where}: the sum is not above the bound")
+                return count
+            elif letter == "E":
+                need(self.least({}, rows) > 0, f"{where}: something is left")
+                return count
+            else:
+                raise BadInput(f"{where}: unknown event {letter!r:.20}")
+        raise Refused("the events end before the bound")
+
+    def _propagate(self, boxes: dict[Variable, tuple[Any, Any]]) -> bool:
+        """Narrow the accelerations from the durations; whether a box is then certainly empty."""
+        for j in self.joints:
+            if self.J[j] is None:
+                continue
+            for before, after in pairwise(self.ks):
+                a = self.at("a", after, j)
+                d, e = self._way(boxes, before, j), self._way(boxes, after, j)
+                J = self.legs[before].jerk[j], self.legs[after].jerk[j]
+                spans = J, boxes["T", before], boxes["T", after]
+                lo, hi = boxes[a]
+                boxes[a] = (
+                    most(lo, (-greatest(-d[1], -e[0], *spans)).lower()),
+                    least(hi, greatest(d[0], e[1], *spans).upper()),
+                )
+            # over a leg it changes by at most J T
+            ways = [(k, self.after[k], k) for k in self.ks]
+            for start, end, k in [*ways, *((end, start, k) for start, end, k in reversed(ways))]:
+                change = self.legs[k].jerk[j] * boxes["T", k][1]
+                (low, high), (lo, hi) = (boxes[self.at("a", i, j)] for i in (start, end))
+                lo, hi = most(lo, (low - change).lower()), least(hi, (high + change).upper())
+                boxes[self.at("a", end, j)] = lo, hi
+        return any(bool(lo > hi) for lo, hi in boxes.values())
+
+    def _way(self, boxes: dict[Variable, tuple[Any, Any]], k: int, j: int) -> tuple[Any, Any]:
+        """Least and greatest displacement of a joint on a leg."""
+        i, none = self.after[k], (R(0), R(0))
+        way = self.c[i][j] - self.c[k][j]
+        (a, b), (c, d) = (boxes.get(self.at("e", at, j), none) for at in (k, i))
+        return way + c - b, way + d - a
+
+    def _narrowed(self, event: list[Any]) -> tuple[Variable, int]:
+        """The variable that an event narrows, and from which side."""
+        if event[1] == "T" and len(event) == 5:
+            return ("T", self.leg(event[2])), index(event[3], 2)
+        if event[1] in ("a", "x") and len(event) == 6:
+            i, j = index(event[2], self.claim.n + 1), index(event[3], self.claim.dof)
+            key = self.at("a" if event[1] == "a" else "e", i, j)
+            need(key in self.boxes, "an event is about a waypoint or joint without a box")
+            return key, index(event[4], 2)
+        raise BadInput(f"unknown event {event!r:.60}")
+
+    def least(self, cost: dict[Variable, Any], rows: list[Any]) -> Any:
+        """Bound a linear cost from below over the boxes.
+
+        Parameters
+        ----------
+        cost : dict
+            Coefficients by variable.
+        rows : list
+            Rows with their multipliers, from the file.
+
+        Returns
+        -------
+        arb
+            The bound.
+        """
+        total, factors = R(0), dict(cost)
+        for raw in rows:
+            raw = items(raw, 2, 11)
+            y = number(raw[-1])
+            need(y >= 0, "a multiplier is negative")
+            row, upper = self.row(raw)
+            total -= y * upper
+            for key, x in row.items():
+                factors[key] = factors.get(key, R(0)) + y * x
+        for key, x in factors.items():
+            certainly_zero = x == 0  # a ball of 0 alone
+            if not certainly_zero:
+                lo, hi = self.box(key)
+                total += least(x * lo, x * hi)
+        return total

@@ -1,0 +1,62 @@
+"""Which waypoints the relaxation keeps: those that a motion cannot pass at one time with the one before.
+
+A motion with a waypoint less can only be faster, so that leaving one out proves no more than is true. It is
+necessary where nothing forces time between two waypoints, since 1 / T would have no bound.
+"""
+
+from __future__ import annotations
+
+import numpy as np
+
+from formulations.problem.arrays import Array, Indices
+from formulations.problem.demands import Demands
+
+
+def kept_waypoints(demands: Demands) -> Indices:
+    """List the waypoints that are kept, in their order.
+
+    Of a plain problem: where a segment with a displacement starts, and the end of the last one.
+
+    Parameters
+    ----------
+    demands : Demands
+
+    Returns
+    -------
+    Indices, shape (K + 1,)
+        Empty where a plain problem has no displacement.
+    """
+    if demands.problem.plain and demands.conditions.none:
+        moving = np.flatnonzero((demands.problem.displacements != 0.0).any(axis=1))
+        return np.append(moving, moving[-1:] + 1)
+    last = len(demands.waits) - 1
+    kept = [0]
+    for i in range(1, last):
+        if _takes_time(demands, kept[-1], i):
+            kept.append(i)
+    while len(kept) > 1 and not _takes_time(demands, kept[-1], last):
+        kept.pop()
+    return np.array([*kept, last], dtype=np.intp)
+
+
+def _takes_time(demands: Demands, start: int, end: int) -> bool:
+    """Whether zones that do not meet, least times or waits force time between two waypoints."""
+    forced = demands.durations[start:end, 0].any() or demands.waits[start + 1 : end].any()
+    return bool(forced or gaps(demands.waypoints[[start, end]]).any())
+
+
+def gaps(boxes: Array) -> Array:
+    """Compute the least distance between consecutive zones, backwards and forwards.
+
+    Parameters
+    ----------
+    boxes : Array, shape (K + 1, n, 2) [rad]
+        Least and greatest position.
+
+    Returns
+    -------
+    Array, shape (K, n, 2) [rad]
+        0 where a joint need not move in that direction; each rounded once.
+    """
+    low, high = boxes[..., 0], boxes[..., 1]
+    return np.maximum(np.stack([low[:-1] - high[1:], low[1:] - high[:-1]], axis=-1), 0.0)
