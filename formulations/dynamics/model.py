@@ -112,7 +112,7 @@ class ArmDynamics:
         rates = np.zeros((2, self.dof, len(flat[0])))
         rates[:, self._order] = np.swapaxes(flat[1:], 1, 2)
         found = pinocchio.rneaInParallel(1, self._pool, positions, rates[0], rates[1])
-        moved = np.asarray(found)[self._order].T + self.damping * flat[1]
+        moved = np.reshape(found, (self.dof, -1))[self._order].T + self.damping * flat[1]
         return np.asarray(moved.reshape(np.shape(q)))
 
     def holding(self, q: Array) -> Array:
@@ -243,7 +243,8 @@ def _bodies(model: Any, order: Array, pinocchio: Any) -> Any:
     joint_of = {int(place): joint for joint, place in enumerate(order)}
     for body in range(1, model.njoints):
         place = model.idx_vs[body]
-        motion = pinocchio.getJointJacobian(model, data, body, pinocchio.LOCAL)[:, place]
+        jacobian = pinocchio.getJointJacobian(model, data, body, pinocchio.LOCAL)
+        motion = np.reshape(jacobian, (6, -1))[:, place]  # one column comes as a vector
         prismatic = not np.abs(motion[3:]).max() > 0.5
         pose, inertia = model.jointPlacements[body], model.inertias[body]
         yield Body(

@@ -16,12 +16,14 @@ All demands that are linear (zones, windows, times, states at the ends, cycles) 
 
 from __future__ import annotations
 
+from functools import cached_property
 from typing import Any
 
 import casadi
 import numpy as np
 
 from formulations.deadlines import NEVER, Deadline
+from formulations.deadlines.ipopt import StoppableIpopt
 from formulations.dynamics import ArmDynamics
 from formulations.dynamics.symbolic import symbolic_torques
 from formulations.optima.torque.steps import Steps
@@ -33,12 +35,14 @@ _OPTIONS: dict[str, Any] = {
     "ipopt.sb": "yes",
     "print_time": False,
     "ipopt.bound_relax_factor": 0.0,
+    "ipopt.tol": 1e-8,
+    "ipopt.max_iter": 100,
+    "ipopt.mu_strategy": "adaptive",
     "error_on_fail": False,
     "show_eval_warnings": False,
 }
 _SHORTEST = 1e-4  # of the mean step: the least duration of a step
 _UNEVEN = 2.0  # how much longer or shorter than the mean of its segment a step may be
-_ITERATIONS = {True: 200, False: 60}  # on even and on uneven steps, which begin near a solution
 _INSIDE = 1e-9  # share by which limits are lowered: the tolerance of the solver
 
 
@@ -62,7 +66,6 @@ class TorqueProgram:
         self.units = self._units()
         self.margins = np.zeros((self.dof, self.S * self.M + 1))
         self._rows: list[tuple[Any, Array, Array]] = []
-        self._solvers: dict[tuple[tuple[str, Any], ...], Any] = {}
         self._pose()
 
     def _units(self) -> Array:
@@ -84,7 +87,6 @@ class TorqueProgram:
         N, (unit, rate, gain) = S * M, self.units
         h = casadi.MX.sym("h", 1, N)
         q, v, a = (casadi.MX.sym(name, dof, N + 1) for name in "qva")
-        margins = casadi.MX.sym("margins", dof, N + 1)
         self._symbols = casadi.veccat(h, q, v, a)
         rows = np.repeat(np.arange(S), M)
         H = casadi.repmat(h, dof, 1)
@@ -114,12 +116,10 @@ class TorqueProgram:
             v0 + H * speed_up * (3.0 * a0 + a1) / 8.0,
             (a0 + a1) / 2.0,
         )
-        least = (margins[:, :-1] + margins[:, 1:]) / 2.0
-        for n, states, margin in ((N + 1, (q, v, a), margins), (N, middle, least)):  # (5)
+        self._torques = self._n_rows  # margins change the bounds of these rows
+        for n, states in ((N + 1, (q, v, a)), (N, middle)):  # (5)
             scaled = (x * scale[:, :n] for x, scale in zip(states, scales, strict=True))
-            share = torques.map(n)(*scaled)
-            self._row(share + margin, -np.inf, 1.0)
-            self._row(share - margin, -1.0, np.inf)
+            self._row(torques.map(n)(*scaled), -1.0, 1.0)
         held = [k * M for k in np.flatnonzero(asked.stops & (np.ptp(asked.waypoints, axis=2).any(axis=1)))]
         if held:  # where the arm stands still in a zone it holds its weight
             still = casadi.DM.zeros(dof, len(held))
@@ -135,12 +135,8 @@ class TorqueProgram:
         cost = casadi.sum2(h)
         if np.isfinite(asked.passages[-1, 1]) and asked.passages[-1, 0] == asked.passages[-1, 1]:
             cost = casadi.sum1(casadi.vec((a1 - a0) ** 2 / H))  # the total time is given: the smoothest
-        self._nlp = {
-            "x": self._symbols,
-            "p": casadi.vec(margins),
-            "f": cost,
-            "g": casadi.vertcat(*(column for column, _, _ in self._rows)),
-        }
+        rows_of_all = casadi.vertcat(*(column for column, _, _ in self._rows))
+        self._nlp = {"x": self._symbols, "p": casadi.MX(0, 1), "f": cost, "g": rows_of_all}
         self._low, self._high = self._bounds()
 
     @property
@@ -186,7 +182,7 @@ class TorqueProgram:
         return found[0], found[1]
 
     def solve(
-        self, start: Steps, *, even: bool, tolerance: float = 1e-8, deadline: Deadline = NEVER
+        self, start: Steps, *, even: bool, deadline: Deadline = NEVER
     ) -> tuple[Steps, bool, str]:
         """Solve the program with the margins at hand.
 
@@ -196,8 +192,6 @@ class TorqueProgram:
             Of this program's shape.
         even : bool
             Whether all steps of a segment last equally long.
-        tolerance : float
-            IPOPT's ``tol``.
         deadline : Deadline
             How long IPOPT may take.
 
@@ -212,6 +206,10 @@ class TorqueProgram:
             [start.durations.ravel() / self.second, (start.states / self.units[:, None]).ravel()]
         )
         low, high = (np.concatenate([row[side] for row in self._rows]) for side in (1, 2))
+        between = np.maximum(self.margins[:, 1:], self.margins[:, :-1])
+        room = 1.0 - np.concatenate([self.margins, between], axis=1).ravel(order="F")
+        torques = slice(self._torques, self._torques + len(room))
+        low[torques], high[torques] = -room, room
         x_low, x_high = self._low.copy(), self._high.copy()
         if not even:
             n = self.S * (self.M - 1)
@@ -221,30 +219,24 @@ class TorqueProgram:
             steps = np.repeat(mean, self.M, axis=1).ravel()
             x_low[: len(steps)] = np.maximum(steps / _UNEVEN, x_low[: len(steps)])
             x_high[: len(steps)] = steps * _UNEVEN
-        options = {"ipopt.tol": tolerance, "ipopt.max_iter": _ITERATIONS[even]}
-        options |= {"ipopt.mu_strategy": "adaptive"} if even else {"ipopt.mu_init": 1e-3}
-        if np.isfinite(left := deadline.left):
-            options["ipopt.max_wall_time"] = max(left, 0.1)
-        solver = self._solver(options)
-        answer = solver(
+        answer = self._solver.solve(
+            deadline,
             x0=np.clip(x, x_low, x_high),
-            p=self.margins.ravel(order="F"),
             lbx=x_low,
             ubx=x_high,
             lbg=low,
             ubg=high,
         )
-        stats = solver.stats()
-        point = np.asarray(answer["x"]).ravel()
+        if answer is None:
+            return start, False, "stopped at the deadline"
+        found, stats = answer
+        point = np.asarray(found["x"]).ravel()
         status = str(stats["return_status"]).replace("_", " ").lower()
         return self._steps(point), bool(stats["success"]), status
 
-    def _solver(self, options: dict[str, Any]) -> Any:
-        """IPOPT with these options; made once where no time limit changes them."""
-        key = tuple(sorted(options.items()))
-        if key not in self._solvers:
-            self._solvers[key] = casadi.nlpsol("torque", "ipopt", self._nlp, {**_OPTIONS, **options})
-        return self._solvers[key]
+    @cached_property
+    def _solver(self) -> StoppableIpopt:
+        return StoppableIpopt("torque", self._nlp, _OPTIONS)
 
     def _steps(self, x: Array) -> Steps:
         n = self.S * self.M
