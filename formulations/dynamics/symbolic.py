@@ -71,7 +71,7 @@ def symbolic_torques(dynamics: ArmDynamics) -> Any:
             force = rotation @ forces[index]
             forces[body.parent] += force
             moments[body.parent] += rotation @ moments[index] + casadi.cross(offset, force)
-    shares = casadi.vertcat(*found) / casadi.DM(dynamics.available)
+    shares = casadi.densify(casadi.vertcat(*found)) / casadi.DM(dynamics.available)
     return casadi.Function("torques", [q, v, a], [shares], {"cse": True})
 
 

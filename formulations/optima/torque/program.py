@@ -77,7 +77,7 @@ class TorqueProgram:
         return np.stack([velocity * self.second, velocity, a])
 
     def _row(self, expression: Any, low: Any, high: Any) -> None:
-        column = casadi.vec(expression)
+        column = casadi.densify(casadi.vec(expression))
         n = column.numel()
         sides = [np.broadcast_to(np.ravel(side, order="F"), n).astype(float) for side in (low, high)]
         self._rows.append((column, sides[0], sides[1]))
