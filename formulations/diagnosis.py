@@ -8,7 +8,6 @@ them: the motion is planned again under the raised limit, and checked.
 from __future__ import annotations
 
 from dataclasses import dataclass, replace
-from typing import Any
 
 import numpy as np
 
@@ -137,7 +136,8 @@ def diagnose(
     ----------
     problem : Problem
     found : FreeForm
-        The motion of this problem, under any conditions, which stay as they are.
+        The motion of this problem. What is saved is that under the same conditions; with times asked for,
+        the shares do not add up to the whole time.
     more : float, default 0.1
         By how much a limit is raised, relative.
     top : int, default 4
@@ -180,8 +180,7 @@ def diagnose(
     savings = []
     for o, j in zip(*np.unravel_index(worst, per_limit.shape), strict=True):
         if per_limit[o, j] > _LEAST * found.seconds and not deadline.over:
-            raised = _raised(problem, int(o), int(j), 1.0 + more)
-            asked = _raised_conditions(found.conditions, int(o), int(j), 1.0 + more)
+            raised, asked = _raised(problem, found.conditions, int(o), int(j), 1.0 + more)
             faster = free_form(raised, conditions=asked, time_limit=deadline.left, stop=deadline.stop)
             if faster.status in (SearchStatus.TIME_LIMIT, SearchStatus.INTERRUPTED):
                 break
@@ -218,7 +217,7 @@ def _held(problem: Problem, found: FreeForm) -> Array:
     if found.sensitivity is not None:
         return found.sensitivity.held
     held = np.zeros((3, problem.n_segments, problem.dof))
-    if found.conditions.none and not problem.limits.has_acceleration and not problem.limits.has_jerk:
+    if not problem.limits.has_acceleration and not problem.limits.has_jerk:
         # with velocity limits only, the slowest joint holds a whole segment
         share = np.abs(problem.displacements) / problem.limits.velocity
         rows = np.arange(problem.n_segments)
@@ -226,35 +225,24 @@ def _held(problem: Problem, found: FreeForm) -> Array:
     return held
 
 
-def _raised(problem: Problem, order: int, joint: int, factor: float) -> Problem:
-    return replace(
-        problem,
-        limits=_raised_limits(problem.limits, order, joint, factor),
-        conditions=_raised_conditions(problem.conditions, order, joint, factor),
-    )
-
-
-def _raised_conditions(asked: Conditions, order: int, joint: int, factor: float) -> Conditions:
-    """The same limit raised on the segments that have limits of their own."""
-    own = {k: _raised_limits(one, order, joint, factor) for k, one in asked.segment_limits.items()}
-    return replace(asked, segment_limits=own)
-
-
-def _raised_limits(limits: Limits, order: int, joint: int, factor: float) -> Limits:
-    """Limits with one raised, in both directions."""
-    by_order = {
-        QUANTITIES[1]: limits.velocity_interval,
-        QUANTITIES[2]: limits.acceleration_interval,
-        QUANTITIES[3]: None,
+def _raised(
+    problem: Problem, asked: Conditions, order: int, joint: int, factor: float
+) -> tuple[Problem, Conditions]:
+    """The problem and its conditions with one limit raised, also where segments have limits of their own."""
+    quantity = QUANTITIES[order + 1]
+    segments = {
+        k: _raised_limits(own, quantity, joint, factor) for k, own in asked.segment_limits.items()
     }
-    name, interval = list(by_order.items())[order]
-    changed: dict[str, Any] = {name: _scaled(getattr(limits, name), joint, factor)}
-    if interval is not None:
-        changed[f"{name}_interval"] = _scaled(interval, joint, factor)
+    asked = replace(asked, segment_limits=segments)
+    limits = _raised_limits(problem.limits, quantity, joint, factor)
+    return replace(problem, limits=limits, conditions=asked), asked
+
+
+def _raised_limits(limits: Limits, quantity: str, joint: int, factor: float) -> Limits:
+    changed = {}
+    for name in (quantity, f"{quantity}_interval"):
+        values = getattr(limits, name, None)
+        if values is not None:
+            changed[name] = values.copy()
+            changed[name][joint] *= factor
     return replace(limits, **changed)
-
-
-def _scaled(values: Array, joint: int, factor: float) -> Array:
-    found = values.copy()
-    found[joint] *= factor
-    return found

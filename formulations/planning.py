@@ -137,9 +137,10 @@ def plan(
     problem : Problem
         Waypoints and limits.
     conditions : Conditions, optional
-        Stops, passage times, a total time, velocities at the ends, limits of single segments. The bound is
-        that of the motions that keep them; with a total time it says how fast they could be. With torque
-        limits it is the bound of all motions that keep the others, so that the gap holds what torques cost.
+        Zones, times, stops, waits, states at the ends, limits of single segments; those of the problem if
+        left out. The bound is that of the motions that keep them; with a total time it says how fast they
+        could be. With torque limits it is the bound of all motions that keep the others, so
+        that the gap holds what torques cost.
     gap : float, default 1e-3
         Relative gap to be reached.
     bound : bool, default True

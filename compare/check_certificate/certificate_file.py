@@ -5,10 +5,16 @@ from __future__ import annotations
 import json
 from math import inf
 from pathlib import Path
-from typing import Any
+from typing import TYPE_CHECKING, Any
+
+import numpy as np
 
 from compare.check_certificate.answers import BadInput, need
 from compare.check_certificate.claim import FORMAT
+from compare.check_certificate.demands import KEYS
+
+if TYPE_CHECKING:
+    from formulations.problem.problem import Problem
 
 _LARGEST_FILE = 400_000_000  # bytes
 _MOST_LISTS = 10_000_000
@@ -67,7 +73,7 @@ def compare_with(data: Any, file_or_case: str) -> None:
     Raises
     ------
     Refused
-        Waypoints, limits or family differ.
+        Waypoints, limits, conditions or family differ.
     BadInput
         The problem cannot be read.
     """
@@ -93,5 +99,33 @@ def compare_with(data: Any, file_or_case: str) -> None:
     for key in ("velocity", "acceleration", "jerk"):
         same(f"limits.{key}", [getattr(limits, key)], [claimed[key]])
     same("limits.position", limits.position, claimed["position"])
+    _require_demands(data, problem, file_or_case)
     slack = float.fromhex(data["position_slack"])
     need(slack >= problem.position_slack, "position_slack is less than the check allows")
+
+
+def _require_demands(data: Any, problem: Problem, file_or_case: str) -> None:
+    """Refuse a certificate of other conditions; one without the total time that is asked for proves more."""
+    from formulations.problem.demands import Demands
+
+    claimed = data.get("demands")
+    if claimed is None:
+        need(problem.plain, f"the certificate is about no conditions, {file_or_case} has some")
+        return
+    asked = problem.conditions
+    found = [Demands.of(problem, one) for one in (asked, asked.without_total(problem))]
+    for key in KEYS:
+        theirs = _floats(claimed[key])
+        need(
+            any(theirs == _floats(np.asarray(getattr(one, key)).tolist()) for one in found),
+            f"demands: {key} differ from those of {file_or_case}",
+        )
+
+
+def _floats(value: Any) -> Any:
+    """Nested lists with numbers for hexadecimal text, and null for what is infinite."""
+    if isinstance(value, list):
+        return [_floats(x) for x in value]
+    if isinstance(value, str):
+        return float.fromhex(value)
+    return None if isinstance(value, float) and abs(value) == inf else value

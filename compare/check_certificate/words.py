@@ -11,9 +11,9 @@ from typing import Any
 
 from compare.check_certificate.balls import Interval, R
 from compare.check_certificate.demands import ClaimedDemands
-from compare.check_certificate.families.every_motion.frame import Variable
 from compare.check_certificate.families.every_motion.inequalities import Inequality
 from compare.check_certificate.families.every_motion.relaxation import Relaxation
+from compare.check_certificate.families.every_motion.setting import Variable
 from compare.check_certificate.reading import number
 
 KINDS = {

@@ -155,7 +155,11 @@ def peaks_of_joints(demands: Demands, trajectory: Trajectory) -> list[Peak]:
                 # strictly inside counts as exactly 1: a position is kept or not
                 factor = 1.0 + max(float(excess[row, joint]), 0.0) / float(width[row, joint])
                 found.append(peak(extremes, 0, piece, joint, is_high, limit, factor))
-    both_ways = (demands.velocity, demands.acceleration, np.stack([-demands.jerk, demands.jerk], axis=-1))
+    both_ways = (
+        demands.velocity,
+        demands.acceleration,
+        np.stack([-demands.jerk, demands.jerk], axis=-1),
+    )
     for order, intervals in enumerate(both_ways, start=1):
         if not np.isfinite(intervals).any():
             continue

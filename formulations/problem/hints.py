@@ -18,10 +18,7 @@ _TURNS = 2.0  # turns of a joint from which on degrees may have been read as rad
 _FEWEST = 8  # waypoints of a path that was sampled
 _GRIDS = {"rad": range(3, 8), "deg": range(1, 7)}  # digits after the point, the coarsest grid first
 _EXACT = 1e-6  # of a grid step: by how much a multiple of it may be missed
-_SHARE = (
-    0.8  # of the inner waypoints that lie on a straight line with their neighbours but for rounding
-)
-_COSTS = 1.2  # times as slow as without rounding: less is not worth a word
+_COSTS = 1.1  # times as slow as without rounding: less is not worth a word
 
 
 def hints_of(problem: Problem) -> tuple[str, ...]:
@@ -77,7 +74,7 @@ def _jitter(problem: Problem, unit: str, digits: int, points: Array) -> Iterator
     half = 0.5 * grid * factors(problem.units, unit)
     free = np.array([zone is not None and (np.asarray(zone) >= half).all() for zone in zones])
     turned = nearly_straight & second.any(axis=1) & ~free
-    if nearly_straight.mean() < _SHARE or not turned.any():
+    if not turned.any():
         return
     as_given, exact = _seconds(problem, points * grid * factors(problem.units, unit), 2.0 * half)
     if as_given < _COSTS * exact:

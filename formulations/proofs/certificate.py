@@ -7,7 +7,8 @@
                inside it, ["l", lo, hi] the last segment, for T1 in [lo, hi]
     horizon    null, or for a bound of every motion ("every-motion"): H [s]; its events are those of
                ``every_motion.events``
-    demands    null, or for a bound under conditions the arrays of ``formulations.problem.demands``
+    demands    null, or for a bound under conditions the arrays of ``formulations.problem.demands``;
+               ``without`` beside it: inner waypoints that the proof does not need
     events     in depth-first order (see ``events``), the first letter says which:
                ["T"] ["E"] ["S", k, value] ["L", rows] ["B", k, value, rows] ["A", k, value, rows]
                ["W", start, end, b, H] (4-3-4): what follows proves that segments start .. end - 1 take

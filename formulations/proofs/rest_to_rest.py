@@ -12,6 +12,7 @@ from fractions import Fraction
 
 import numpy as np
 
+from formulations.problem.conditions import Conditions
 from formulations.problem.demands import Demands
 from formulations.problem.problem import Problem
 from formulations.proofs.displacement import distance_between, rounded_down
@@ -76,7 +77,7 @@ def rest_to_rest_bound(distance: Fraction, velocity: float, acceleration: float,
     return seconds
 
 
-def end_to_end_bound(problem: Problem) -> float:
+def end_to_end_bound(problem: Problem, conditions: Conditions | None = None) -> float:
     """Proved lower bound on every motion: rest to rest from the first waypoint to the last.
 
     Parameters
@@ -84,14 +85,16 @@ def end_to_end_bound(problem: Problem) -> float:
     problem : Problem
         Its inner waypoints are ignored, which makes the motions more, and so are all conditions but zones and
         the states at the ends. Where an end is not at rest, displacement over top speed bounds the motions.
+    conditions : Conditions, optional
+        In place of the problem's own.
 
     Returns
     -------
     float
         Bound of the slowest joint, rounded down [s].
     """
-    asked = problem.conditions
-    boxes = Demands.of(problem).waypoints[[0, -1]]
+    demands = Demands.of(problem, conditions)
+    asked, boxes = demands.conditions, demands.waypoints[[0, -1]]
     # a limit that is lower in one direction, or on one segment, is taken as if it were nowhere lower
     limits = asked.derivatives(problem).max(axis=1)
     ends = np.stack([asked.end_velocities(problem), asked.end_accelerations(problem)])

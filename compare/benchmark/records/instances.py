@@ -11,11 +11,7 @@ import numpy as np
 from formulations import Limits, Problem
 from formulations.problem.arrays import Array
 from formulations.problem.toml_file.condition_table import conditions_of_table
-from formulations.problem.toml_file.plain_conditions import (
-    tables_of_conditions,
-    with_infinities,
-    without_infinities,
-)
+from formulations.problem.toml_file.plain_conditions import asked_as_json, with_infinities
 
 _TEXTS = ("name", "family", "title", "source", "display_unit")
 _LIMITS = ("velocity", "acceleration", "jerk", "position")
@@ -36,7 +32,6 @@ def plain_problem(problem: Problem) -> dict[str, Any]:
         Ready for strict JSON; angles in rad, None for a limit that there is not. Conditions stand in it as in
         a problem file.
     """
-    asked = tables_of_conditions(problem)
     intervals = {key: getattr(problem.limits, key) for key in _INTERVALS}
     return {
         **{key: getattr(problem, key) for key in _TEXTS},
@@ -47,7 +42,7 @@ def plain_problem(problem: Problem) -> dict[str, Any]:
             **{key: _listed(getattr(problem.limits, key)) for key in _LIMITS},
             **{key: _listed(value) for key, value in intervals.items() if value is not None},
         },
-        **({"conditions": without_infinities(asked)} if asked else {}),
+        **asked_as_json(problem),
     }
 
 

@@ -1,6 +1,6 @@
 """The options that ask more of a motion than its problem does: zones, times, stops, states at the ends.
 
-A command has the parameter ``asked: ConditionOptions = None`` and calls ``conditions_of(asked, problem)``.
+A command has the parameter ``asked: ConditionOptions = None`` and calls ``problem_of(file, own, asked)``.
 """
 
 from __future__ import annotations

@@ -5,7 +5,7 @@ from __future__ import annotations
 import sys
 
 from compare.commands import DONE, FAILED, INTERRUPTED
-from compare.commands.motions.condition_options import PlanConditionOptions, conditions_of
+from compare.commands.motions.condition_options import PlanConditionOptions
 from compare.commands.motions.problem_options import FileOrRobot, OwnRobotOptions, problem_of
 from compare.commands.options import Export, Gap, Json, Rate, TimeLimit
 from compare.interrupts import ctrl_c_stops
@@ -22,6 +22,7 @@ from formulations import plan as find_motion
 from formulations.motion.peaks import unit_of
 from formulations.optima.at_rate.export import check_export, export_motion
 from formulations.optima.free_form import SearchStatus
+from formulations.problem.toml_file.plain_conditions import asked_as_json
 from formulations.proofs.status import BoundStatus
 
 _CUT_SHORT = {
@@ -52,15 +53,13 @@ def plan(
     no_bound
         Prove nothing about how fast any motion could be, which saves some seconds.
     """
-    problem = problem_of(file, own)
-    conditions = conditions_of(asked, problem)
+    problem = problem_of(file, own, asked)
     if export is not None:
-        check_export(export, problem, rate, conditions)
+        check_export(export, problem, rate)
     try:
         with ctrl_c_stops() as asked_to_stop, stages(problem.name) as stage:
             motion = find_motion(
                 problem,
-                conditions=conditions,
                 gap=gap,
                 bound=not no_bound,
                 time_limit=time_limit,
@@ -78,7 +77,7 @@ def plan(
     if export is not None:
         if found.trajectory is None:
             raise InputError("--export: no joint moves, so there is no motion to write")
-        written = export_motion(export, problem, found.trajectory, rate, conditions=conditions)
+        written = export_motion(export, problem, found.trajectory, rate)
         text = "\n".join([text, "", *written.lines()])
     show(text, as_json(problem, found, bound), json)
     return INTERRUPTED if interrupted else DONE
@@ -129,6 +128,8 @@ def _proved(bound: FreeFormBound, timed: bool) -> str:
 def as_json(problem: Problem, found: FreeForm, bound: FreeFormBound | None = None) -> dict[str, object]:
     """The same as plain data, with every peak; joints and segments count from 1, as in the text.
 
+    Conditions stand in it as in a problem file, in rad, where waypoints count from 0.
+
     Parameters
     ----------
     problem : Problem
@@ -146,6 +147,7 @@ def as_json(problem: Problem, found: FreeForm, bound: FreeFormBound | None = Non
     passed = [] if found.trajectory is None else found.trajectory.passage_times.tolist()
     return {
         "problem": problem.name,
+        **asked_as_json(problem),
         "seconds": found.seconds,
         "passage_times": passed,
         "method": found.method,

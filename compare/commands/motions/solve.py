@@ -3,14 +3,13 @@
 from __future__ import annotations
 
 import sys
-from dataclasses import replace
 from typing import Annotated, Any
 
 from cyclopts import Parameter
 
 from compare.commands import BAD_INPUT, DONE, FAILED, INTERRUPTED
 from compare.commands.motions.climbing import chosen_rungs, climb, unsolved
-from compare.commands.motions.condition_options import PlanConditionOptions, conditions_of
+from compare.commands.motions.condition_options import PlanConditionOptions
 from compare.commands.motions.problem_options import FileOrRobot, OwnRobotOptions, problem_of
 from compare.commands.options import (
     Export,
@@ -29,6 +28,7 @@ from compare.screen import show, stages, table
 from formulations import RUNGS, InputError, Ladder, Problem
 from formulations.deadlines import Deadline
 from formulations.optima.at_rate.export import check_export, export_motion
+from formulations.problem.toml_file.plain_conditions import asked_as_json
 from formulations.proofs.certificate import write_certificate
 
 _LINES = 8  # of what limits the fastest motion
@@ -65,10 +65,9 @@ def solve(
     motion_certificate
         Write the proof of free_form_lower, which holds for every motion.
     """
-    problem = problem_of(file, own)
-    problem = replace(problem, conditions=conditions_of(asked, problem))
+    problem = problem_of(file, own, asked)
     if export is not None:
-        check_export(export, problem, rate, problem.conditions)
+        check_export(export, problem, rate)
     chosen = chosen_rungs(problem, rungs, without)
     deadline = Deadline(time_limit)
     with ctrl_c_stops() as stop, stages(problem.name) as stage:
@@ -92,7 +91,7 @@ def solve(
     if held is not None and held.holds:
         text += ["\nwhat limits the fastest motion", *(f"  {line}" for line in held.lines()[:_LINES])]
     diagnosis = None if held is None else held.to_json()
-    show("\n".join(text), {**answer.to_json(), "diagnosis": diagnosis}, json)
+    show("\n".join(text), {**answer.to_json(), **asked_as_json(problem), "diagnosis": diagnosis}, json)
     say = sys.stderr if json == "-" else sys.stdout
     if reason := unsolved(answer):
         print(f"error: {problem.name}: no motion was found: {reason}", file=sys.stderr)
@@ -158,9 +157,7 @@ def _export(path: str, problem: Problem, answer: Ladder, rate: float | None) -> 
     if not verified:
         raise InputError("--export: there is no verified motion")
     key = min(verified, key=lambda key: verified[key])
-    written = export_motion(
-        path, problem, answer.trajectories[key], rate, conditions=problem.conditions
-    )
+    written = export_motion(path, problem, answer.trajectories[key], rate)
     return "\n".join([f"{key}, {verified[key]:.9g} s", *written.lines()])
 
 

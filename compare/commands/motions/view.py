@@ -13,7 +13,7 @@ from cyclopts import Parameter
 
 from compare.commands import BAD_INPUT, BROKEN, DONE, INTERRUPTED
 from compare.commands.motions.climbing import chosen_rungs, climb, unsolved
-from compare.commands.motions.condition_options import ConditionOptions, conditions_of
+from compare.commands.motions.condition_options import ConditionOptions
 from compare.commands.motions.problem_options import (
     FileOrRobot,
     OwnRobot,
@@ -79,8 +79,8 @@ def view(
     """
     if file is not None and motion is None and own is not None and own != OwnRobot():
         file, motion = None, file
-    problem = problem_of(file, own)
-    conditions = conditions_of(asked, problem)
+    problem = problem_of(file, own, asked)
+    conditions = problem.conditions
     arm = known_arm(file, own)
     judged = None
     if motion is not None:
@@ -89,7 +89,6 @@ def view(
             read_points(motion),
             interpolation=interpolation,
             tolerance=tolerance,
-            conditions=conditions,
         )
     path = Path(out or page_name(problem))
     output_folder(path.parent)  # says so at once if it cannot be written to
@@ -102,7 +101,6 @@ def view(
             try:
                 planned = plan(
                     problem,
-                    conditions=conditions,
                     gap=gap,
                     time_limit=deadline.left,
                     stop=stop,

@@ -82,6 +82,25 @@ def check_request(problem: Problem, rate: float | None, conditions: Conditions |
         require_point(waypoint, time, rate)
 
 
+def require_kept(asked: Conditions) -> None:
+    """Refuse what motions with points at a rate, or at the switching times, cannot keep.
+
+    Parameters
+    ----------
+    asked : Conditions
+
+    Raises
+    ------
+    InputError
+        The motion has to wait.
+    """
+    for waypoint in asked.waits:
+        raise InputError(
+            f"conditions.waits: waypoint {waypoint}: a file of points cannot hold a wait; write exact pieces "
+            "(.pieces.json)"
+        )
+
+
 def require_point(waypoint: int, time: float, rate: float) -> int:
     """Find the point that lies at a passage time.
 

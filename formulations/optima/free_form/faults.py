@@ -72,7 +72,9 @@ def missed(task: ConditionedProblem, motion: ArcMotion) -> float:
     times = [(passed[w], early, late) for w, (early, late) in task.windows.items()]
     times += [(time, 0.0, late) for time, late in zip(motion.times, task.durations[:, 1], strict=True)]
     longest = max(abs(late) for _, _, late in times if np.isfinite(late))
-    return max(float(max(early - time, time - late, 0.0)) for time, early, late in times) / (longest or 1.0)
+    return max(float(max(early - time, time - late, 0.0)) for time, early, late in times) / (
+        longest or 1.0
+    )
 
 
 def least_stretch(task: ConditionedProblem, motion: ArcMotion) -> float:

@@ -67,7 +67,9 @@ class _Derivatives:
         shares = np.maximum(ways / speeds[..., 1], ways / speeds[..., 0])
         mine = (np.arange(S), np.array(ramped)[shares.argmax(axis=1)])
         pull = np.maximum(-self.solution.bound_multipliers[block.part], 0.0)
-        pull = np.where(low * self.numbers.second > task.durations[:, 0], pull, 0.0)  # else a least time holds
+        pull = np.where(
+            low * self.numbers.second > task.durations[:, 0], pull, 0.0
+        )  # else a least time holds
         self.limits[(0, *mine)] -= pull * low * self.numbers.second
         with np.errstate(divide="ignore", invalid="ignore"):
             rate = pull * low * self.numbers.second / task.displacements[mine]

@@ -42,7 +42,10 @@ def stop_and_go_motion(task: ConditionedProblem, places: Array | None = None) ->
     for order in (2, 3):
         for j in task.group(order):
             d = displacements[:, j]
-            (velocity, acceleration), jerk = (both[:, j] for both in task.intervals), task.limits[2, :, j]
+            (velocity, acceleration), jerk = (
+                (both[:, j] for both in task.intervals),
+                task.limits[2, :, j],
+            )
             speed = np.where(d < 0.0, -velocity[:, 0], velocity[:, 1])
             limits[j] = np.stack([speed, np.abs(acceleration).min(axis=1), jerk])
             phases = s_curve(np.abs(d), limits[j], order)

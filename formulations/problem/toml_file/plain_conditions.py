@@ -85,6 +85,23 @@ def table_of_limits(limits: Limits, unit: str = "rad") -> dict[str, Any]:
     return {**derivatives, "position": (limits.position / scales[:, None]).tolist()}
 
 
+def asked_as_json(problem: Problem) -> dict[str, Any]:
+    """Return the conditions of a problem for strict JSON, in rad and m.
+
+    Parameters
+    ----------
+    problem : Problem
+
+    Returns
+    -------
+    dict
+        With the key ``conditions``, whose table is that of a problem file, and "inf" for infinite numbers;
+        empty where the problem has none.
+    """
+    asked = without_infinities(tables_of_conditions(problem))
+    return {"conditions": asked} if asked else {}
+
+
 def without_infinities(value: Any) -> Any:
     """Write infinite numbers as text, for strict JSON.
 

@@ -213,6 +213,8 @@ def free_form_bound(
         seconds, horizon, events = search.certify(Deadline(left, stop))
         asked = None if search.plain else demands
         certificate = certificate_of(problem, seconds, events, horizon=horizon, demands=asked)
+        if asked is not None:
+            certificate["without"] = sorted(search.without)
     method = max(search.bounds, key=lambda key: search.bounds[key])
     return FreeFormBound(
         problem,

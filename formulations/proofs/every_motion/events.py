@@ -29,7 +29,6 @@ import numpy as np
 
 from formulations.deadlines import Deadline
 from formulations.problem.arrays import Array
-from formulations.problem.demands import Demands
 from formulations.proofs.every_motion.relaxation.boxes import Boxes
 from formulations.proofs.every_motion.relaxation.cuts import (
     PEAKS,
@@ -53,13 +52,19 @@ _MARGIN = 1e-10  # of the bound, for the checker's own boxes and rows
 
 
 def bound_with_events(
-    demands: Demands, horizon: float, target: float, cuts: Cuts, typical: Array, deadline: Deadline
+    relaxed: RelaxedProblem,
+    horizon: float,
+    target: float,
+    cuts: Cuts,
+    typical: Array,
+    deadline: Deadline,
 ) -> tuple[float, list[Event]]:
     """Prove a bound and record the proof.
 
     Parameters
     ----------
-    demands : Demands
+    relaxed : RelaxedProblem
+        For this horizon.
     horizon : float [s]
         The time H, with all waits.
     target : float [s]
@@ -76,7 +81,6 @@ def bound_with_events(
         0 where nothing was proved.
     events : list
     """
-    relaxed = RelaxedProblem.under(demands, horizon)
     boxes = propagate(relaxed, _first_boxes(relaxed))
     units = typical[relaxed.segments]
     record = _Events()

@@ -56,6 +56,8 @@ _GUESS = 2.0  # times from rest to rest: how long a motion under conditions may 
 _FARTHEST = 1e3  # displacements at top speed: where the search ends if no motion is left
 _TINY = 1e-9  # s, the least unit of a duration
 _BELOW = 1.0 - 2.0**-50  # more than the rounding of one sum
+_FEW_ZONES = 30  # each of them costs a linear program to be left out
+_EQUAL, _COARSE = 1e-6, 1e-5  # of the bound; tolerance of its cuts
 _STALLED = 0.05  # of the way to the horizon: a step that gains less is no progress
 
 
@@ -103,6 +105,7 @@ class HorizonSearch:
         """
         self.demands, self.upper, self.progress = demands, upper, progress
         self.problem = problem = demands.problem
+        self.without: frozenset[int] = frozenset()
         self.plain = problem.plain and demands.conditions.none
         if self.plain:
             self.bounds = {
@@ -160,7 +163,7 @@ class HorizonSearch:
             return Ending(
                 BoundStatus.SIMPLE, too_small if self.plain else "nothing forces it to take time"
             )
-        relaxed = RelaxedProblem.under(self.demands, self.known)
+        relaxed = self._relaxed(self.known)
         if not (np.maximum(relaxed.least, relaxed.at_top_speed) > 0.0).all():
             return Ending(BoundStatus.SIMPLE, "its only two waypoints can coincide")
         if relaxed.cyclic and len(relaxed.least) < 2:
@@ -170,7 +173,11 @@ class HorizonSearch:
                 BoundStatus.SIMPLE, "with a velocity limit alone, displacement is the infimum itself"
             )
         with np.errstate(over="ignore", divide="ignore", invalid="ignore"):
+            self._leave_waypoints_out(gap, deadline)
             return self._approach(gap, deadline)
+
+    def _relaxed(self, horizon: float) -> RelaxedProblem:
+        return RelaxedProblem.under(self.demands, horizon, without=self.without)
 
     def _approach(self, gap: float, deadline: Deadline) -> Ending:
         """Try horizon after horizon: a longer one when none of its motions is left, else a shorter one."""
@@ -199,11 +206,40 @@ class HorizonSearch:
             if ahead < gap:
                 return Ending(BoundStatus.TIGHT)
 
+    def _leave_waypoints_out(self, gap: float, deadline: Deadline) -> None:
+        """Leave out zones that a fastest motion passes through on its way, if the bound is no worse for it."""
+        zoned = (self.demands.waypoints[1:-1, :, 0] < self.demands.waypoints[1:-1, :, 1]).any(axis=1)
+        candidates = (np.flatnonzero(zoned) + 1).tolist()
+        if not 0 < len(candidates) <= _FEW_ZONES:
+            return
+        best = self._first_bound(deadline)
+        for waypoint in candidates:
+            if deadline.over or (self.upper is not None and self.upper <= best * (1.0 + gap)):
+                return
+            before, self.without = self.without, self.without | {waypoint}
+            found = self._first_bound(deadline)
+            if found < best * (1.0 - _EQUAL):
+                self.without = before
+            best = max(best, found)
+
+    def _first_bound(self, deadline: Deadline) -> float:
+        """The bound in the first boxes, for the waypoints that are not left out."""
+        relaxed = self._relaxed(self.known)
+        if not (np.maximum(relaxed.least, relaxed.at_top_speed) > 0.0).all():
+            return 0.0
+        boxes = self._boxes(relaxed, None)
+        if boxes.empty:
+            return self.known
+        frame = Frame(relaxed, boxes, self.typical[relaxed.segments])
+        program = LinearProgram(frame, _tangents(boxes.durations))
+        found = program.solve(frame.cost, rounds=_ROUNDS, tolerance=_COARSE, deadline=deadline)
+        return min(found.bound, relaxed.horizon) + relaxed.waits
+
     def _within(
         self, horizon: float, boxes: Boxes | None, gap: float, deadline: Deadline
     ) -> tuple[Ending | None, Boxes]:
         """Bound all motions of at most ``horizon`` seconds, in narrower and narrower boxes."""
-        relaxed = RelaxedProblem.under(self.demands, horizon)
+        relaxed = self._relaxed(horizon)
         boxes = self._boxes(relaxed, boxes)
         typical = self.typical[relaxed.segments]
         tolerance = min(max(1e-3 * gap, 1e-9), 1e-7)
@@ -276,12 +312,17 @@ class HorizonSearch:
         """
         least = self.bounds["displacement"] * (1.0 - 1e-12)
         horizon = min(self.known * (1.0 + _BEYOND), self.seconds * (1.0 + _NEAR))
-        joints = RelaxedProblem.under(self.demands, horizon).joints
+        joints = self._relaxed(horizon).joints
         if not len(joints) or not self.seconds > least * (1.0 + 1e-9):
             return least, least, self._without_rows
         with np.errstate(over="ignore", divide="ignore", invalid="ignore"):
             bound, events = bound_with_events(
-                self.demands, horizon, self.seconds * (1.0 - 1e-8), self.cuts, self.typical, deadline
+                self._relaxed(horizon),
+                horizon,
+                self.seconds * (1.0 - 1e-8),
+                self.cuts,
+                self.typical,
+                deadline,
             )
         if not bound > least:
             return least, least, self._without_rows

@@ -94,7 +94,7 @@ def _derivatives(frame: Frame, kind: Kind, cuts: Cuts, x: Array) -> tuple[Array,
         J = frame.bend[k, j] * x[frame.square[k]]
         return c_V * frame.top[k, j, with_it], c_A * A + c_against * against, c_J * J
     if kind in PEAKS:
-        top = frame.top[:, j, with_it].max(axis=0)
+        top = frame.peak(kind.end, cuts)[0]
         return top, none, top - cuts.sign * x[frame.v[k + kind.end, j]]
     if kind in PRODUCTS:
         t, e, side = frame.corner(cuts, kind.end)

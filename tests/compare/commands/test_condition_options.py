@@ -9,7 +9,7 @@ import numpy as np
 import pytest
 
 from compare.__main__ import main
-from formulations import Conditions, NoFeasibleMotion, load
+from formulations import Conditions, NoFeasibleMotion, Problem, load
 
 FILE = """
 unit = "deg"
@@ -50,8 +50,8 @@ def asked(monkeypatch: pytest.MonkeyPatch) -> list[Conditions]:
     """The conditions with which the search is called, which then ends at once."""
     found: list[Conditions] = []
 
-    def plan(problem: object, *, conditions: Conditions, **options: object) -> None:
-        found.append(conditions)
+    def plan(problem: Problem, **options: object) -> None:
+        found.append(problem.conditions)
         raise NoFeasibleMotion("not sought")
 
     monkeypatch.setattr("compare.commands.motions.plan.find_motion", plan)

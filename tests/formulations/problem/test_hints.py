@@ -9,7 +9,7 @@ import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
-from formulations import CASES, Conditions, Problem, load
+from formulations import CASES, Conditions, Problem, load, plan
 
 LIMITS = {"velocity": 2.0, "acceleration": 10.0, "jerk": 100.0}
 
@@ -61,6 +61,15 @@ def test_rounding_that_costs_nothing_is_not_spoken_of() -> None:
     assert Problem(line().round(4), {"velocity": 2.0}).hints == ()  # a corner costs nothing then
 
 
+def test_a_dense_part_between_far_waypoints_is_found_too() -> None:
+    far = np.random.default_rng(2).uniform(-1.0, 1.0, (3, 3)).round(2)
+    points = np.vstack([line().round(4), far])
+    (hint,) = Problem(points, LIMITS).hints
+    second = np.abs(np.diff((points * 1e4).round(), 2, axis=0)).max(axis=1)
+    assert f"{np.sum((second > 0) & (second <= 2))} of them lie beside" in hint
+    assert Problem(np.vstack([line(), far]), LIMITS).hints == ()
+
+
 @pytest.mark.parametrize("case", CASES)
 def test_the_cases_of_the_papers_get_no_hint(case: str) -> None:
     assert load(case).hints == ()
@@ -74,3 +83,23 @@ def test_points_that_a_person_typed_get_no_hint() -> None:
     assert Problem(staircase, LIMITS).hints == ()
     grid = 0.01 * np.arange(50)[:, None] * [1.0, 2.0]  # exact multiples on a line
     assert Problem(grid, LIMITS).hints == ()
+
+
+def test_the_tolerance_that_the_hint_gives_undoes_the_rounding() -> None:
+    points = line(dof=2, n=40)
+    exact, rounded = Problem(points, LIMITS), Problem(points.round(4), LIMITS)
+    half = Conditions(tolerance=dict.fromkeys(range(1, 39), np.full(2, 5.0001e-5)))
+    assert np.abs(points[[0, -1]] - points[[0, -1]].round(4)).max() < 1e-4
+    seconds = {
+        name: plan(problem, bound=False).seconds
+        for name, problem in (
+            ("exact", exact),
+            ("rounded", rounded),
+            ("zoned", replace(rounded, conditions=half)),
+        )
+    }
+    (hint,) = rounded.hints
+    said = float(hint.split("take about ")[1].split()[0])
+    assert 1.1 < said <= seconds["rounded"] / seconds["exact"]
+    # the exact points are in the zones, and only the ends have moved, by half a step
+    assert seconds["zoned"] <= 1.001 * seconds["exact"]

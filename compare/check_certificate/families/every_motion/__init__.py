@@ -3,6 +3,7 @@
 course         waypoints between which time passes, and the limits of what lies between two of them
 implied        limits that follow from others
 accelerations  the acceleration at a waypoint, from the durations of the two segments that meet there
+setting        the variables, and the boxes that hold them at first
 inequalities   every row, built anew
 relaxation     boxes, and the events that narrow them
 """

@@ -22,7 +22,34 @@ from compare.check_certificate.balls import R, most
 _DEGREE = 3
 
 
-def greatest(d: Any, e: Any, J: tuple[Any, Any], T: tuple[Any, Any], U: tuple[Any, Any]) -> Any:
+def weights(T: tuple[Any, Any], U: tuple[Any, Any]) -> list[tuple[Any, ...]]:
+    """Compute the Bernstein coefficients that do not depend on the joint.
+
+    Parameters
+    ----------
+    T, U : tuple of two arb [s]
+        Intervals of the durations, above 0.
+
+    Returns
+    -------
+    list of tuple of arb
+        Those of 2 T, 2 U, T^3 U / 3 and T U^3 / 3, each divided by that of D.
+    """
+    t, u = [bernstein(p, *T) for p in range(4)], [bernstein(p, *U) for p in range(4)]
+    found = []
+    for i, k in product(range(_DEGREE + 1), repeat=2):
+        below = t[2][i] * u[1][k] + t[1][i] * u[2][k]
+        above = (
+            2 * t[1][i] * u[0][k],
+            2 * t[0][i] * u[1][k],
+            t[3][i] * u[1][k] / 3,
+            t[1][i] * u[3][k] / 3,
+        )
+        found.append(tuple(x / below for x in above))
+    return found
+
+
+def greatest(d: Any, e: Any, J: tuple[Any, Any], of_both: list[tuple[Any, ...]]) -> Any:
     """Bound the acceleration at a waypoint from above.
 
     Parameters
@@ -31,20 +58,14 @@ def greatest(d: Any, e: Any, J: tuple[Any, Any], T: tuple[Any, Any], U: tuple[An
         Displacements before and after the waypoint.
     J : tuple of two arb [rad/s^3]
         Jerk limits before and after.
-    T, U : tuple of two arb [s]
-        Intervals of the durations, above 0.
+    of_both : list of tuple of arb
+        The ``weights`` of both durations.
 
     Returns
     -------
     arb [rad/s^2]
     """
-    t, u = [bernstein(p, *T) for p in range(4)], [bernstein(p, *U) for p in range(4)]
-    ratios = []
-    for i, k in product(range(_DEGREE + 1), repeat=2):
-        jerk = (J[0] * t[3][i] * u[1][k] + J[1] * t[1][i] * u[3][k]) / 3
-        above = 2 * (e * t[1][i] * u[0][k] - d * t[0][i] * u[1][k]) + jerk
-        ratios.append(above / (t[2][i] * u[1][k] + t[1][i] * u[2][k]))
-    return most(*ratios)
+    return most(*(e * x - d * y + J[0] * z + J[1] * w for x, y, z, w in of_both))
 
 
 def bernstein(power: int, low: Any, high: Any) -> list[Any]:

@@ -1,13 +1,13 @@
 """Inequalities that every motion keeps, built anew.
 
-Variables as of ``frame``; s1 .. s6 ascend in [0, 1]. T is in [l, h], a in an interval with an end f, and e
+Variables as of ``setting``; s1 .. s6 ascend in [0, 1]. T is in [l, h], a in an interval with an end f, and e
 too. The letters V and A mean the limits in the direction of the sign of a row, or against it:
 
     h   sum T <= H - waits                      b, l   an arrival is not too early, not too late
     s   u <= 1 / l + 1 / h - T / (l h)          t   u >= 2 / t - T / t^2
     c   q <= (h + 2 t) T + h t^2 u - 2 h t - t^2
     w   (T - bound) (a - f) of one sign         m   (u - bound) (e - f) of one sign
-    v   |v| + (2 c W - c^2 q) / (2 J) <= V      where the acceleration must fade within the motion
+    v   |v| + (2 c W - c^2 q) / (2 J) <= V      where the acceleration has to fade
     a   v1 - v0 <= s1 W0 + (1 - s2) W1 + (s2 - s1) A T + (s1^2 + (1 - s2)^2) / 2 J q
     r   s2 v0 + g W0 + p <= r u + (s2 - s1)^2 / 2 A T + .. J q,     r from c to a position limit
     d   (c1 - c0) u + p1 - p0 <= z v0 + .. W0 + (1 - y) v1 - .. W1 + (y - z) V + m A T + n A T + g J q
@@ -22,16 +22,29 @@ from typing import Any
 
 from compare.check_certificate.answers import BadInput, need
 from compare.check_certificate.balls import Interval, R, most
-from compare.check_certificate.families.every_motion.frame import Frame, Variable
+from compare.check_certificate.families.every_motion.setting import Setting, Variable
 from compare.check_certificate.reading import index, number
 
 WIDTHS = {
     "h": 2, "b": 3, "l": 3, "s": 3, "t": 4, "c": 4, "w": 6, "m": 6, "v": 7, "a": 7, "r": 8, "d": 11, "k": 11,
 }  # fmt: skip
+SUMS = ("h", "b", "l")  # rows about sums of durations
 Inequality = tuple[dict[Variable, Any], Any]
 
 
-class Inequalities(Frame):
+def require_row(raw: list[Any]) -> None:
+    """Refuse what is no row.
+
+    Parameters
+    ----------
+    raw : list
+        From the file.
+    """
+    if WIDTHS.get(str(raw[0])) != len(raw):
+        raise BadInput(f"unknown row {raw!r:.60}")
+
+
+class Inequalities(Setting):
     """Builds rows in the boxes that are in force."""
 
     _sums: tuple[dict[Variable, Interval], dict[int, Any]] | None = None
@@ -50,12 +63,10 @@ class Inequalities(Frame):
             Coefficients by variable, and the right-hand side.
         """
         kind = str(raw[0])
-        if WIDTHS.get(kind) != len(raw):
-            raise BadInput(f"unknown row {raw!r:.60}")
-        if kind == "h":
-            return {("T", k): R(1) for k in self.ks}, self.budget
-        if kind in ("b", "l"):
-            return self._arrival(index(raw[1], self.claim.n + 1), kind == "l")
+        require_row(raw)
+        if kind in SUMS:
+            i, side, upper = self.arrival(raw)
+            return {("T", k): R(side) for k in self.ks if k < i}, upper
         if kind in ("s", "t", "c"):
             return self._of_duration(kind, self.leg(raw[1]), raw)
         j, k = index(raw[1], self.claim.dof), self.leg(raw[2])
@@ -94,13 +105,30 @@ class Inequalities(Frame):
         need(k in self.legs, f"a row is about segment {k + 1}, on which nothing moves")
         return k
 
-    def _arrival(self, i: int, latest: bool) -> Inequality:
-        """Rows b and l."""
+    def arrival(self, raw: list[Any]) -> tuple[int, int, Any]:
+        """Build a row h, b or l: it bounds the sum of the durations before a waypoint.
+
+        Parameters
+        ----------
+        raw : list
+            From the file.
+
+        Returns
+        -------
+        waypoint : int
+        side : int
+            1: the sum is bounded from above, -1: from below.
+        upper : arb [s]
+            Of side times the sum.
+        """
+        if raw[0] == "h":
+            return self.ends[1], 1, self.budget
+        i, latest = index(raw[1], self.claim.n + 1), raw[0] == "l"
         need(i in self.waited, f"a row is about waypoint {i + 1}, which is left out")
         time = self.demands.passages[i][latest]
         need(time is not None, f"a row is about the latest time of waypoint {i + 1}, which has none")
-        side = R(1 if latest else -1)
-        return {("T", k): side for k in self.ks if k < i}, side * (time - self.waited[i])
+        side = 1 if latest else -1
+        return i, side, side * (time - self.waited[i])
 
     def _of_duration(self, kind: str, k: int, raw: list[Any]) -> Inequality:
         """Rows s, t and c."""
@@ -124,18 +152,43 @@ class Inequalities(Frame):
         return {(product, k, j, end): R(-side), x: side * t, by: side * f}, side * t * f
 
     def _peak(self, j: int, k: int, end: int, sign: int, c: Any) -> Inequality:
-        """Row v: the acceleration fades, or rose from 0, within the motion, and adds a^2 / (2 J)."""
-        J, i = self.J[j], self.after[k] if end else k
-        need(J is not None, "a row needs a jerk limit where there is none")
-        v, a = self.at("v", i, j), self.boxes[self.at("a", i, j)]
-        if not all(self.fades[j]):
-            fade = most(abs(a[0]), abs(a[1])) / J
-            for fades, time in zip(self.fades[j], self._least_times(i), strict=True):
-                need(fades or time >= fade, "a peak where the acceleration need not fade")
-        return {v: R(sign), ("W", k, j, end): c / J, ("q", k): -c * c / (2 * J)}, self.top[j][sign > 0]
+        """Row v: the acceleration fades after the waypoint, or rose from 0 before it, and adds a^2 / (2 J).
 
-    def _least_times(self, i: int) -> tuple[Any, Any]:
-        """Least times before and after a waypoint, in the boxes in force."""
+        If sign a and sign c differ, the row is weaker than the limit of the velocity at the waypoint.
+        """
+        need(self.J[j] is not None, "a row needs a jerk limit where there is none")
+        i = self.after[k] if end else k
+        V, J = self._limits_of_peak(j, i, bool(sign * c > 0))
+        v = self.at("v", i, j)
+        return {v: R(sign), ("W", k, j, end): c / J, ("q", k): -c * c / (2 * J)}, V[sign > 0]
+
+    def _limits_of_peak(self, j: int, i: int, later: bool) -> tuple[Interval, Any]:
+        """Limits of velocity and jerk where the acceleration of a waypoint fades, later or before.
+
+        They are those of the next leg if that is long enough; else the largest of the whole motion, which
+        has to be long enough.
+        """
+        low, high = self.boxes[self.at("a", i, j)]
+        steepest, beside = most(abs(low), abs(high)), i if later else self.before.get(i)
+        if beside in self.legs and self.boxes["T", beside][0] >= steepest / self.legs[beside].jerk[j]:
+            return self.V[beside][j], self.legs[beside].jerk[j]
+        enough = self.fades[j][later] or self.least_times(i)[later] >= steepest / self.J[j]
+        need(enough, "a peak where the acceleration need not fade")
+        return self.top[j], self.J[j]
+
+    def least_times(self, i: int) -> tuple[Any, Any]:
+        """Add up the least durations, in the boxes in force.
+
+        Parameters
+        ----------
+        i : int
+            A waypoint that is kept.
+
+        Returns
+        -------
+        before, after : arb [s]
+            Least times before and after the waypoint, without waits.
+        """
         if self._sums is None or self._sums[0] is not self.boxes:
             sums, total = {self.ends[0]: R(0)}, R(0)
             for k in self.ks:

@@ -14,9 +14,9 @@ from typing import Any
 from compare.check_certificate.answers import BadInput, Refused, need
 from compare.check_certificate.balls import R, least, most
 from compare.check_certificate.claim import Claim
-from compare.check_certificate.families.every_motion.accelerations import greatest
-from compare.check_certificate.families.every_motion.frame import Variable
-from compare.check_certificate.families.every_motion.inequalities import Inequalities
+from compare.check_certificate.families.every_motion.accelerations import greatest, weights
+from compare.check_certificate.families.every_motion.inequalities import SUMS, Inequalities, require_row
+from compare.check_certificate.families.every_motion.setting import Variable
 from compare.check_certificate.reading import index, items, number
 
 MOST_ROWS = 1_000_000
@@ -56,7 +56,7 @@ class Relaxation(Inequalities):
                 if pending[key][0] > pending[key][1]:
                     return count  # nothing is left
             elif letter == "F":
-                total = self.least({("T", k): R(1) for k in self.ks}, rows)
+                total = self.least({}, rows, time=1)
                 need(total + self.waits > self.claim.L, f"{where}: the sum is not above the bound")
                 return count
             elif letter == "E":
@@ -68,19 +68,19 @@ class Relaxation(Inequalities):
 
     def _propagate(self, boxes: dict[Variable, tuple[Any, Any]]) -> bool:
         """Narrow the accelerations from the durations; whether a box is then certainly empty."""
-        for j in self.joints:
-            if self.J[j] is None:
-                continue
-            for before, after in pairwise(self.ks):
-                a = self.at("a", after, j)
+        limited = [j for j in self.joints if self.J[j] is not None]
+        for before, after in pairwise(self.ks):
+            of_both = weights(boxes["T", before], boxes["T", after])
+            for j in limited:
                 d, e = self._way(boxes, before, j), self._way(boxes, after, j)
                 J = self.legs[before].jerk[j], self.legs[after].jerk[j]
-                spans = J, boxes["T", before], boxes["T", after]
+                a = self.at("a", after, j)
                 lo, hi = boxes[a]
                 boxes[a] = (
-                    most(lo, (-greatest(-d[1], -e[0], *spans)).lower()),
-                    least(hi, greatest(d[0], e[1], *spans).upper()),
+                    most(lo, (-greatest(-d[1], -e[0], J, of_both)).lower()),
+                    least(hi, greatest(d[0], e[1], J, of_both).upper()),
                 )
+        for j in limited:
             # over a leg it changes by at most J T
             ways = [(k, self.after[k], k) for k in self.ks]
             for start, end, k in [*ways, *((end, start, k) for start, end, k in reversed(ways))]:
@@ -108,8 +108,10 @@ class Relaxation(Inequalities):
             return key, index(event[4], 2)
         raise BadInput(f"unknown event {event!r:.60}")
 
-    def least(self, cost: dict[Variable, Any], rows: list[Any]) -> Any:
+    def least(self, cost: dict[Variable, Any], rows: list[Any], time: int = 0) -> Any:
         """Bound a linear cost from below over the boxes.
+
+        Rows about sums of durations are added up per waypoint first, so that the work grows with the rows.
 
         Parameters
         ----------
@@ -117,24 +119,42 @@ class Relaxation(Inequalities):
             Coefficients by variable.
         rows : list
             Rows with their multipliers, from the file.
+        time : int
+            Coefficient of the sum of all durations, beside the cost; 0 or 1.
 
         Returns
         -------
         arb
             The bound.
         """
-        total, factors = R(0), dict(cost)
+        total, factors, last = R(0), dict(cost), self.ends[1]
+        sums = {last: R(time)}  # coefficients of the sums of the durations before waypoints
         for raw in rows:
             raw = items(raw, 2, 11)
+            require_row(raw)
             y = number(raw[-1])
             need(y >= 0, "a multiplier is negative")
-            row, upper = self.row(raw)
+            if raw[0] in SUMS:
+                i, side, upper = self.arrival(raw)
+                sums[i] = sums.get(i, R(0)) + side * y
+            else:
+                row, upper = self.row(raw)
+                for key, x in row.items():
+                    factors[key] = factors.get(key, R(0)) + y * x
             total -= y * upper
-            for key, x in row.items():
-                factors[key] = factors.get(key, R(0)) + y * x
+        if len(sums) == 1 and sums[last] >= 0:  # least where all durations are
+            everywhere, rest = sums[last], self.least_times(last)[0]
+        else:
+            everywhere, rest = R(0), R(0)
+            for k in reversed(self.ks):
+                everywhere += sums.get(self.after[k], R(0))
+                factors["T", k] = factors.get(("T", k), R(0)) + everywhere
+            everywhere = R(0)
         for key, x in factors.items():
+            if key[0] == "T":
+                x, rest = x + everywhere, rest - self.boxes[key][0]
             certainly_zero = x == 0  # a ball of 0 alone
             if not certainly_zero:
                 lo, hi = self.box(key)
                 total += least(x * lo, x * hi)
-        return total
+        return total + everywhere * rest

@@ -213,7 +213,9 @@ class ArcMotion:
         at = np.flatnonzero(waits)
         joints = {}
         for j, arcs in self.joints.items():
-            still = np.repeat(waits[at, None] / arcs.durations.shape[1], arcs.durations.shape[1], axis=1)
+            still = np.repeat(
+                waits[at, None] / arcs.durations.shape[1], arcs.durations.shape[1], axis=1
+            )
             joints[j] = replace(
                 arcs,
                 durations=np.insert(arcs.durations, at, still, axis=0),
@@ -221,5 +223,7 @@ class ArcMotion:
                 states=np.insert(arcs.states, at, arcs.states[at], axis=0),
             )
         return ArcMotion(
-            np.insert(self.times, at, waits[at]), joints, np.insert(self.places, at, self.places[at], axis=0)
+            np.insert(self.times, at, waits[at]),
+            joints,
+            np.insert(self.places, at, self.places[at], axis=0),
         )

@@ -235,7 +235,8 @@ class ConditionedProblem:
     def hurried(self) -> bool:
         """Whether something has to be done within a time."""
         return bool(
-            np.isfinite(self.demands.passages[1:, 1]).any() or np.isfinite(self.demands.durations[:, 1]).any()
+            np.isfinite(self.demands.passages[1:, 1]).any()
+            or np.isfinite(self.demands.durations[:, 1]).any()
         )
 
     @property

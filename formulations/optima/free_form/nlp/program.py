@@ -140,7 +140,9 @@ class FreeFormNLP:
             passed = np.cumsum(motion.times)
             for waypoint in self.shape.timed:  # what is below 0 is set to 0
                 early, late = numbers.window(waypoint)
-                parts.append(np.array([early, -late]) + np.array([-1.0, 1.0]) * passed[waypoint - 1] / second)
+                parts.append(
+                    np.array([early, -late]) + np.array([-1.0, 1.0]) * passed[waypoint - 1] / second
+                )
             for segment in self.shape.hurried:
                 late = motion.times[segment] / second - numbers.segment_times[1][segment]
                 parts.append(np.array([late]))
@@ -197,9 +199,7 @@ def _free_places(task: ConditionedProblem) -> tuple[tuple[Offset, ...], tuple[Of
         for member, j in enumerate(task.group(order)):
             wide = task.zones[:, j].copy()
             if order == 1:
-                crossings += [
-                    Offset(1, member, int(k)) for k in np.flatnonzero(wide[:-1] | wide[1:])
-                ]
+                crossings += [Offset(1, member, int(k)) for k in np.flatnonzero(wide[:-1] | wide[1:])]
             wide[-1] &= not task.demands.cyclic
             zones += [Offset(order, member, int(w)) for w in np.flatnonzero(wide)]
     return tuple(zones), tuple(crossings)

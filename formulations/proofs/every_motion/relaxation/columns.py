@@ -60,13 +60,12 @@ class Columns:
         self.ramp = scale * (relaxed.acceleration / relaxed.velocity)
         self.ramps = scale[..., None] * (relaxed.accelerations / relaxed.velocity[:, None])
         self.bend = scale**2 * (relaxed.jerks / relaxed.velocity)
-        self.peak_bend = scale**2 * (relaxed.jerk / relaxed.velocity)
         self.top = relaxed.velocities / relaxed.velocity[:, None]
         self.distance = relaxed.displacements / relaxed.velocity / scale
         both_ends = np.stack([relaxed.zones[:-1], relaxed.zones[1:]], axis=-1)
         self.shift = both_ends / relaxed.velocity[:, None] / scale[..., None]
         self.room = relaxed.room / relaxed.velocity[:, None]
-        self.has_room = self._times_to_fade()
+        self.fades_within, self.fades = self._times_to_fade()
 
     def _number_columns(self, K: int, n: int) -> None:
         zones = self.relaxed.zones > 0.0
@@ -106,16 +105,26 @@ class Columns:
             box[self.p[k, j, end]] = np.stack([-reach, reach], axis=-1)
         return box
 
-    def _times_to_fade(self) -> Truths:
-        """Where rows (10) may be posed, (K + 1, n): the acceleration has to fade within the motion."""
-        relaxed = self.relaxed
-        lasting = np.concatenate([[0.0], np.cumsum(self.boxes.durations[:, 0])])
-        most = np.abs(self.boxes.accelerations).max(axis=-1)
-        needed = _ROOM * most / np.where(relaxed.has_jerk, relaxed.jerk, np.inf)
+    def _times_to_fade(self) -> tuple[Truths, Truths]:
+        """Where an acceleration at a waypoint has the time to rise from 0 before it, or to fall to 0 after it.
+
+        Returns
+        -------
+        within : Truths, shape (K, 2, n)
+            Within a segment, for the waypoints at its start and at its end.
+        fades : Truths, shape (2, K + 1, n)
+            Within the motion, before and after the waypoint.
+        """
+        relaxed, T = self.relaxed, self.boxes.durations[:, 0]
+        most = _ROOM * np.abs(self.boxes.accelerations).max(axis=-1)
+        own = np.where(relaxed.jerks > 0.0, relaxed.jerks, np.inf)
+        within = T[:, None, None] >= np.stack([most[:-1] / own, most[1:] / own], axis=1)
+        lasting = np.concatenate([[0.0], np.cumsum(T)])
+        needed = most / np.where(relaxed.has_jerk, relaxed.jerk, np.inf)
         start, end = relaxed.fades
-        before = np.full(needed.shape, start) | (lasting[:, None] >= needed)
-        after = np.full(needed.shape, end) | ((lasting[-1] - lasting)[:, None] >= needed)
-        return np.asarray(before & after)
+        before = start | (lasting[:, None] >= needed)
+        after = end | ((lasting[-1] - lasting)[:, None] >= needed)
+        return within, np.stack([before, after])
 
 
 def _shares(intervals: Array, unit: Array) -> tuple[Array, Array]:

@@ -1,7 +1,9 @@
 """Which waypoints the relaxation keeps: those that a motion cannot pass at one time with the one before.
 
 A motion with a waypoint less can only be faster, so that leaving one out proves no more than is true. It is
-necessary where nothing forces time between two waypoints, since 1 / T would have no bound.
+necessary where nothing forces time between two waypoints, since 1 / T would have no bound. It is useful
+where a motion passes through a zone on its way: then many positions and times there belong to a fastest
+motion, and no narrow box holds them all.
 """
 
 from __future__ import annotations
@@ -12,7 +14,7 @@ from formulations.problem.arrays import Array, Indices
 from formulations.problem.demands import Demands
 
 
-def kept_waypoints(demands: Demands) -> Indices:
+def kept_waypoints(demands: Demands, without: frozenset[int] = frozenset()) -> Indices:
     """List the waypoints that are kept, in their order.
 
     Of a plain problem: where a segment with a displacement starts, and the end of the last one.
@@ -20,6 +22,8 @@ def kept_waypoints(demands: Demands) -> Indices:
     Parameters
     ----------
     demands : Demands
+    without : frozenset of int
+        Inner waypoints to leave out besides.
 
     Returns
     -------
@@ -32,7 +36,7 @@ def kept_waypoints(demands: Demands) -> Indices:
     last = len(demands.waits) - 1
     kept = [0]
     for i in range(1, last):
-        if _takes_time(demands, kept[-1], i):
+        if i not in without and _takes_time(demands, kept[-1], i):
             kept.append(i)
     while len(kept) > 1 and not _takes_time(demands, kept[-1], last):
         kept.pop()

@@ -113,7 +113,12 @@ class RelaxedProblem:
         return RelaxedProblem.under(Demands.of(problem), horizon, slack)
 
     @staticmethod
-    def under(demands: Demands, horizon: float, slack: float | None = None) -> RelaxedProblem:
+    def under(
+        demands: Demands,
+        horizon: float,
+        slack: float | None = None,
+        without: frozenset[int] = frozenset(),
+    ) -> RelaxedProblem:
         """Relax what a motion has to keep, for all motions of at most ``horizon`` seconds.
 
         Parameters
@@ -123,12 +128,14 @@ class RelaxedProblem:
             The time H, with all waits.
         slack : float, optional [rad]
             As in ``of``.
+        without : frozenset of int
+            Inner waypoints to leave out.
 
         Returns
         -------
         RelaxedProblem
         """
-        kept, joints = kept_waypoints(demands), _joints_in_rows(demands)
+        kept, joints = kept_waypoints(demands, without), _joints_in_rows(demands)
         between = _Between(kept)
         box = demands.waypoints[kept][:, joints]
         middles = box.mean(axis=-1)

@@ -16,9 +16,10 @@ the same. Rows:
 
 Row (8) makes the relaxation tight: together with (6) and (7) it bounds the convex hull of the curve
 (T, 1 / T, T^2) where the optimum lies; the secant of T^2 is the case t = l. In (10) the acceleration a
-falls to 0, or rose from 0, with |j| <= J, and the speed stays within V meanwhile, on whatever segment
-that is: V and J are the greatest of all. Where an acceleration is free at an end of the motion, (10) is
-posed only where there is certainly the time a / J for that. The least sum of T over these rows is a lower
+falls to 0 after the waypoint, or rose from 0 before it, with |j| <= J, and the speed stays within V
+meanwhile. V and J are those of the segment on that side where it has the time a / J for that, else the
+greatest of all segments. Where an acceleration is free at an end of the motion, (10) is posed only where
+there is certainly that time in the motion. The least sum of T over these rows is a lower
 bound for every choice of t, c and the switches.
 
 Rounding. A coefficient differs from the exact one by at most 32 roundings, none of which cancels. Each
@@ -164,14 +165,44 @@ class Frame(Columns):
         return self._rows(columns, [-side, side * u, side * f], side * u * f)
 
     def _peak(self, end: int, cuts: Cuts) -> Terms:
-        k, j = cuts.segment, cuts.joint
+        k, j, sign = cuts.segment, cuts.joint, cuts.sign
         _require(self.relaxed.has_jerk[j])
         c = cuts.at[:, 0] * self.typical[k] / self.relaxed.acceleration[j]
-        share = self.ramp[k, j] ** 2 / self.peak_bend[k, j]
+        top, bend, sound = self.peak(end, cuts)
+        share = self.ramp[k, j] ** 2 / bend
         columns = [self.v[k + end, j], self.W[k, j, end], self.square[k]]
-        top = self.top[:, j, _forwards(cuts.sign)].max(axis=0)
-        sound = np.where(self.has_room[k + end, j], top, np.inf)  # LinearProgram leaves such rows out
-        return self._rows(columns, [cuts.sign, share * c, -0.5 * share * c**2], sound)
+        # LinearProgram leaves infinite rows out
+        upper = np.where(sound, top, np.inf)
+        return self._rows(columns, [sign, share * c, -0.5 * share * c**2], upper)
+
+    def peak(self, end: int, cuts: Cuts) -> tuple[Array, Array, Truths]:
+        """Find the limits of (10): those of the segment where the acceleration fades, or of all segments.
+
+        With c along the motion the speed rises after the waypoint, else it fell before it.
+
+        Parameters
+        ----------
+        end : int
+            0 for the start of a segment, 1 for its end.
+        cuts : Cuts
+
+        Returns
+        -------
+        top, bend : Array, shape (m,)
+            V, and J T^2 for the typical duration, in units of the velocity limit.
+        sound : Truths, shape (m,)
+            Whether there is certainly the time.
+        """
+        i, j = cuts.segment + end, cuts.joint
+        forwards, after = _forwards(cuts.sign), cuts.sign * cuts.at[:, 0] > 0.0
+        k = np.where(after, i, i - 1)  # the segment on that side
+        there = (k >= 0) & (k < self.K)
+        k = np.clip(k, 0, self.K - 1)
+        own = there & self.fades_within[k, np.where(after, 0, 1), j]
+        top = np.where(own, self.top[k, j, forwards], self.top[:, j, forwards].max(axis=0))
+        bend = np.where(own, self.relaxed.jerks[k, j], self.relaxed.jerk[j]) / self.relaxed.velocity[j]
+        sound = own | self.fades[after.astype(np.intp), i, j]
+        return top, self.typical[cuts.segment] ** 2 * bend, sound
 
     def _stop(self, end: int, cuts: Cuts) -> Terms:
         k, j, sign = cuts.segment, cuts.joint, cuts.sign

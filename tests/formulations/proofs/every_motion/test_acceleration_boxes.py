@@ -124,7 +124,7 @@ def test_the_checker_derives_the_same_box(
         0, 0
     ]
     T, U = ((R(float(a)), R(float(b))) for a, b in durations)
-    theirs = float(accelerations.greatest(R(d), R(e), (R(J), R(J)), T, U))
+    theirs = float(accelerations.greatest(R(d), R(e), (R(J), R(J)), accelerations.weights(T, U)))
     size = J + max(abs(d), abs(e)) / min(low) ** 2
     assert theirs <= ours <= theirs + 1e-13 * size
 

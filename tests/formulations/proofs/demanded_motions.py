@@ -64,8 +64,10 @@ class Scenario:
     states: Array
 
 
-def scenario(rng: np.random.Generator, ends: str, *, n: int = 4, dof: int = 2) -> Scenario:
-    """Make a random motion with the given ends, and demands that hold it tightly."""
+def scenario(
+    rng: np.random.Generator, ends: str, *, n: int = 4, dof: int = 2, times: str = "some"
+) -> Scenario:
+    """Make a random motion with the given ends, and demands that hold it; times: some, none or all."""
     jerky = rng.random(dof) < 0.8
     waits = np.where(rng.random(n + 1) < 0.2, rng.uniform(0.1, 0.6, n + 1), 0.0)
     waits[[0, -1]] = 0.0
@@ -97,6 +99,11 @@ def scenario(rng: np.random.Generator, ends: str, *, n: int = 4, dof: int = 2) -
     demands |= {"waits": waits, "stops": [bool(x) for x in stops]}
     if ends == "rest":
         demands["stops"][0] = demands["stops"][-1] = True
+    if times == "none":
+        demands["durations"][:], demands["passages"][1:] = (0.0, np.inf), (0.0, np.inf)
+    if times == "all":
+        T = (motion.knots[arrive][1:] - motion.knots[leave][:-1])[:, None]
+        demands["durations"] = np.where(T > 0.0, T * (1.0 + np.array([-1e-9, 1e-9])), [0.0, np.inf])
     return Scenario(demands, motion.knots[arrive], motion.knots[leave], np.array(there))
 
 

@@ -1,0 +1,125 @@
+"""No row of the relaxation under conditions cuts off a motion that keeps them."""
+
+from __future__ import annotations
+
+import math
+
+import numpy as np
+import pytest
+from demanded_motions import ENDS, Scenario, scenario
+from every_motion_helpers import random_cuts
+
+from formulations import Conditions, Limits, Problem
+from formulations.problem.arrays import Array
+from formulations.problem.demands import Demands
+from formulations.proofs.every_motion.closed_forms import bound_at_top_speed
+from formulations.proofs.every_motion.relaxation.boxes import Boxes
+from formulations.proofs.every_motion.relaxation.columns import Columns
+from formulations.proofs.every_motion.relaxation.cuts import PEAKS, Kind
+from formulations.proofs.every_motion.relaxation.propagation import propagate
+from formulations.proofs.every_motion.relaxation.relaxed_problem import RelaxedProblem
+from formulations.proofs.every_motion.relaxation.rows import Frame
+from formulations.proofs.every_motion.relaxation.separation import separate
+
+ROUNDING = 1e-8
+
+
+def demands_of(made: Scenario) -> Demands:
+    """The arrays of a scenario as ``Demands``; whose conditions they are does not matter."""
+    found = {key: np.asarray(value) for key, value in made.demands.items() if key != "cyclic"}
+    velocity, acceleration = (
+        np.abs(found[key]).max(axis=(0, 2)) for key in ("velocity", "acceleration")
+    )
+    limits = Limits.of(velocity, acceleration, found["jerk"].max(axis=0), dof=len(velocity))
+    problem = Problem(found["waypoints"].mean(axis=-1), limits)
+    asked = Conditions(stops=frozenset({1}))  # not a plain problem
+    return Demands(problem, asked, **found, cyclic=made.demands["cyclic"])
+
+
+def point_of(frame: Frame, made: Scenario) -> Array:
+    """The motion in the variables of the relaxation."""
+    relaxed = frame.relaxed
+    at, j = relaxed.waypoints, relaxed.joints
+    T = (made.arrivals[at][1:] - made.leavings[at][:-1]) / frame.typical
+    v = made.states[at][:, j, 1] / relaxed.velocity
+    a = np.where(relaxed.has_jerk, made.states[at][:, j, 2], 0.0) / relaxed.acceleration
+    x = np.zeros(frame.size)
+    x[frame.T], x[frame.inverse], x[frame.square] = T, 1.0 / T, T**2
+    if relaxed.cyclic:
+        v[-1], a[-1] = v[0], a[0]
+    x[frame.v], x[frame.a] = v, a
+    x[frame.W[:, :, 0]], x[frame.W[:, :, 1]] = T[:, None] * a[:-1], T[:, None] * a[1:]
+    middles = demands_of(made).waypoints[at][:, j].mean(axis=-1)
+    there = relaxed.zones > 0.0
+    e = np.divide(made.states[at][:, j, 0] - middles, relaxed.zones, where=there, out=0.0 * middles)
+    if relaxed.cyclic:
+        e[-1] = e[0]
+    x[frame.e[there]] = e[there]
+    for end in (0, 1):
+        k, i = np.nonzero(frame.p[:, :, end] >= 0)
+        x[frame.p[k, i, end]] = e[k + end, i] / T[k]
+    return x
+
+
+def framed(made: Scenario, stretch: float) -> Frame | None:
+    """A frame for all motions that are slower by a factor at the most; None where there is no relaxation."""
+    demands = demands_of(made)
+    relaxed = RelaxedProblem.under(demands, made.leavings[-1] * stretch)
+    least = np.maximum(relaxed.least, relaxed.at_top_speed)
+    if not len(relaxed.joints) or not (least > 0.0).all() or (relaxed.cyclic and len(least) < 2):
+        return None
+    assert bound_at_top_speed(RelaxedProblem.under(demands, np.inf)) <= made.arrivals[-1] * (1 + 1e-12)
+    if (np.diff(made.arrivals[relaxed.waypoints]) > 1e4 * least).any():
+        return None  # the zones all but meet, and rounding of the motion is not small any more
+    most = np.minimum(relaxed.most, relaxed.horizon - (least.sum() - least))
+    boxes = propagate(relaxed, Boxes.around(relaxed, least * (1 - 1e-12), most * (1 + 1e-12)))
+    assert not boxes.empty
+    return Frame(relaxed, boxes, 1.7 * least)
+
+
+@pytest.mark.parametrize("ends", ENDS)
+def test_no_row_cuts_off_a_motion_that_keeps_the_conditions(ends: str) -> None:
+    seen = set()
+    for seed in range(30):
+        rng = np.random.default_rng(seed)
+        made = scenario(rng, ends, n=int(rng.integers(2, 6)))
+        for stretch in (1.0 + 1e-9, 1.5):
+            frame = framed(made, stretch)
+            if frame is None:
+                continue
+            x = point_of(frame, made)
+            outside = np.maximum(frame.box[:, 0] - x, x - frame.box[:, 1])
+            assert outside.max() <= ROUNDING * (1.0 + np.abs(x).max()), seed
+            # rows posed anywhere, and those that cut deepest
+            for cuts in (random_cuts(frame, rng), separate(frame, x, -math.inf)):
+                rows = frame.of(cuts)
+                size = abs(rows.matrix) @ np.abs(x) + np.abs(rows.upper)
+                sound = np.isfinite(rows.upper)
+                excess = rows.matrix @ x - rows.upper
+                assert (excess[sound] <= ROUNDING * size[sound] + 1e-11).all(), seed
+                seen |= set(cuts.kind[sound].tolist())
+            fixed = frame.fixed()
+            assert (fixed.matrix @ x - fixed.upper <= ROUNDING * (1.0 + np.abs(fixed.upper))).all(), (
+                seed
+            )
+    assert seen >= set(Kind) - set(PEAKS)
+
+
+def test_peaks_beside_free_ends_would_cut_motions_off(monkeypatch: pytest.MonkeyPatch) -> None:
+    """The fault that the test above must notice: (10) posed where the acceleration need not fade."""
+    true = Columns._times_to_fade
+    monkeypatch.setattr(
+        Frame, "_times_to_fade", lambda frame: (true(frame)[0], ~(true(frame)[1] & False))
+    )
+    worst = 0.0
+    for seed in range(30):
+        made = scenario(np.random.default_rng(seed), "free", n=3)
+        frame = framed(made, 1.5)
+        if frame is None:
+            continue
+        x = point_of(frame, made)
+        cuts = separate(frame, x, -math.inf)
+        cuts = cuts[np.isin(cuts.kind, PEAKS)]
+        rows = frame.of(cuts)
+        worst = max(worst, float((rows.matrix @ x - rows.upper).max(initial=0.0)))
+    assert worst > 1e-3
