@@ -118,7 +118,11 @@ class StoppableIpopt:
         x, p, f, g = (self.nlp[name] for name in "xpfg")
         shared = {"no_nlp_grad": True, "calc_lam_p": False, "iteration_callback": self._callback}
         if isinstance(x, casadi.MX):
-            options = {**self.options, **shared, "expand": True}  # evaluated in scalars: seven times faster
+            options = {
+                **self.options,
+                **shared,
+                "expand": True,
+            }  # evaluated in scalars: seven times faster
             self._solver = casadi.nlpsol(self.name, "ipopt", self.nlp, options)
             return
         price, prices = self._prices

@@ -257,11 +257,7 @@ def judge(
         names=names,
         tolerance=tolerance,
         peaks=tuple(peaks),
-        violations=tuple(
-            peak
-            for peak in peaks
-            if peak.factor > 1.0 + _allowed(over, peak)
-        ),
+        violations=tuple(peak for peak in peaks if peak.factor > 1.0 + _allowed(over, peak)),
         jumps=tuple(jumps(problem, trajectory, smooth)),
         not_at_rest=tuple(moving),
         missed=tuple(_missed(passed.misses, passed.times, tolerance)),

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Iterable, Sequence
-from dataclasses import dataclass, replace
+from dataclasses import dataclass, field, replace
 from pathlib import Path
 from typing import TYPE_CHECKING
 
@@ -72,7 +72,7 @@ class TorqueLimits:
     limits: tuple[float, ...] | None = None
     payload: Payload | None = None
     gravity: tuple[float, float, float] = EARTH
-    file: str = "URDF"
+    file: str = field(default="URDF", compare=False)
 
     def __post_init__(self) -> None:
         object.__setattr__(self, "joints", tuple(self.joints))

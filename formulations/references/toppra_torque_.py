@@ -38,7 +38,9 @@ def toppra_torque_on(problem: Problem, path: Trajectory) -> Outcome:
     torque = problem.conditions.torque
     if torque is None:
         return Outcome.not_applicable("no torque limits")
-    replace(problem, conditions=problem.conditions.without_torque()).require_plain("TOPP-RA with torques")
+    replace(problem, conditions=problem.conditions.without_torque()).require_plain(
+        "TOPP-RA with torques"
+    )
     dynamics = dynamics_of(torque)
     limits = np.stack([-dynamics.available, dynamics.available], axis=1)
     constraint = toppra.constraint.JointTorqueConstraint(

@@ -120,7 +120,9 @@ class TorqueProgram:
         for n, states in ((N + 1, (q, v, a)), (N, middle)):  # (5)
             scaled = (x * scale[:, :n] for x, scale in zip(states, scales, strict=True))
             self._row(torques.map(n)(*scaled), -1.0, 1.0)
-        held = [k * M for k in np.flatnonzero(asked.stops & (np.ptp(asked.waypoints, axis=2).any(axis=1)))]
+        held = [
+            k * M for k in np.flatnonzero(asked.stops & (np.ptp(asked.waypoints, axis=2).any(axis=1)))
+        ]
         if held:  # where the arm stands still in a zone it holds its weight
             still = casadi.DM.zeros(dof, len(held))
             weight = casadi.repmat(casadi.DM(unit), 1, len(held))
@@ -161,7 +163,10 @@ class TorqueProgram:
         shortest = _SHORTEST * self.start.durations.mean() / self.second
         found = []
         for side, worst in ((0, np.maximum), (1, np.minimum)):
-            before, after = np.r_[0, np.repeat(np.arange(S), M)], np.r_[np.repeat(np.arange(S), M), S - 1]
+            before, after = (
+                np.r_[0, np.repeat(np.arange(S), M)],
+                np.r_[np.repeat(np.arange(S), M), S - 1],
+            )
             states = np.stack(
                 [
                     worst(given[before, :, side], given[after, :, side])
@@ -173,7 +178,9 @@ class TorqueProgram:
             stiff = np.isfinite(asked.jerk).all(axis=0)
             if not asked.cyclic:
                 states[1, [0, -1]] = asked.end_velocity[..., side]
-                states[2][[0, -1]] = np.where(stiff, asked.end_acceleration[..., side], states[2][[0, -1]])
+                states[2][[0, -1]] = np.where(
+                    stiff, asked.end_acceleration[..., side], states[2][[0, -1]]
+                )
             for k in np.flatnonzero(asked.stops):
                 states[1, k * M] = 0.0
                 states[2, k * M] = np.where(stiff, 0.0, states[2, k * M])
@@ -181,9 +188,7 @@ class TorqueProgram:
             found.append(np.concatenate([steps, (states / self.units[:, None]).ravel()]))
         return found[0], found[1]
 
-    def solve(
-        self, start: Steps, *, even: bool, deadline: Deadline = NEVER
-    ) -> tuple[Steps, bool, str]:
+    def solve(self, start: Steps, *, even: bool, deadline: Deadline = NEVER) -> tuple[Steps, bool, str]:
         """Solve the program with the margins at hand.
 
         Parameters

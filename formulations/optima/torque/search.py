@@ -27,10 +27,11 @@ from formulations.problem.arrays import Array
 from formulations.problem.demands import Demands
 from formulations.problem.errors import InputError, NoFeasibleMotion, NotFoundInTime
 
-_ROUNDS = {True: 4, False: 2}  # of raising margins on even and on uneven steps
+_ROUNDS = {True: 5, False: 2}  # of raising margins on even and on uneven steps
 _SAMPLES = 8  # per step, where torques between nodes are looked at
 _STRETCHES = 20
 _SLOWEST = 20.0  # more than that a motion is not slowed down before the program starts
+_MORE = 1.2  # of the excess: by so much margins are raised
 _KEPT = 1e-6  # of the limit: torques that exceed it by less are left to the last stretch
 
 NOTE = "the lower bound is that of the limits without torques"
@@ -171,7 +172,7 @@ class TorqueSearch:
                 excess = self._excess(found)
                 if excess.max() <= _KEPT:
                     break
-                program.margins += excess
+                program.margins += _MORE * excess
         return steps
 
     def _excess(self, steps: Steps) -> Array:

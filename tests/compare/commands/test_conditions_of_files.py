@@ -126,4 +126,6 @@ def test_retime_says_that_conditions_are_about_other_waypoints(
     rows = "\n".join(f"{k},{0.01 * k:.4f},{0.02 * k:.4f}" for k in range(20))
     Path("path.csv").write_text(f"time,position_1,position_2\n{rows}\n", "utf-8")
     assert main(["retime", "path.csv", "--limits", "cell.toml"]) == 0
-    assert "hint: --limits cell.toml: its [conditions] are about its waypoints" in capsys.readouterr().err
+    assert (
+        "hint: --limits cell.toml: its [conditions] are about its waypoints" in capsys.readouterr().err
+    )

@@ -53,11 +53,15 @@ def pendulum(
     """One body; its centre of mass is on the x axis at q = 0, and moves down about ``LEVEL`` as q grows."""
     return arm(
         link("rod", mass, (length, 0.0, 0.0), (inertia,) * 3),
-        joint("hinge", "base", "rod", axis, effort=effort, damping=damping, friction=friction, kind=kind),
+        joint(
+            "hinge", "base", "rod", axis, effort=effort, damping=damping, friction=friction, kind=kind
+        ),
     )
 
 
-def two_links(masses=(3.0, 2.0), lengths=(0.6, 0.5), inertias=(0.12, 0.07), *, axis: str = LEVEL) -> str:
+def two_links(
+    masses=(3.0, 2.0), lengths=(0.6, 0.5), inertias=(0.12, 0.07), *, axis: str = LEVEL
+) -> str:
     """A planar arm; centres of mass in the middle of the links."""
     first, second = (
         link(f"l{i}", masses[i], (lengths[i] / 2.0, 0.0, 0.0), (inertias[i],) * 3) for i in range(2)

@@ -115,7 +115,10 @@ def test_no_sample_exceeds_the_greatest_torque(seed: int) -> None:
     times = np.linspace(0.0, motion.seconds, 20001)
     torques = np.abs(arm.torques(*(motion.at(times, order) for order in range(3))))
     assert (torques.max(axis=0) <= found.greatest + RESOLUTION * arm.available * 1.01).all()
-    reached = [motion.at(found.times - 1e-12, k) for k in range(3)], [motion.at(found.times, k) for k in range(3)]
+    reached = (
+        [motion.at(found.times - 1e-12, k) for k in range(3)],
+        [motion.at(found.times, k) for k in range(3)],
+    )
     sides = np.abs(np.stack([arm.torques(*states) for states in reached]))
     np.testing.assert_allclose(
         np.abs(sides - found.greatest).min(axis=0).diagonal(), 0.0, atol=1e-6 * found.greatest.max()
@@ -128,7 +131,10 @@ def test_a_violation_between_samples_is_found() -> None:
     torque = of(pendulum(VERTICAL, effort=4.0), ("hinge",))
     # a jerk up and down for 2 ms each: between samples at 100 Hz nothing is to be seen of it
     d, j = 0.002, 4000.0
-    jerks, durations = [5.0, -5.0, 0.0, j, -j, -j, j, 0.0, -5.0, 5.0], [0.4, 0.4, 0.203, d, d, d, d, 0.199, 0.4, 0.4]
+    jerks, durations = (
+        [5.0, -5.0, 0.0, j, -j, -j, j, 0.0, -5.0, 5.0],
+        [0.4, 0.4, 0.203, d, d, d, d, 0.199, 0.4, 0.4],
+    )
     state, pieces = np.zeros(3), []
     for jerk, h in zip(jerks, durations, strict=True):
         pieces.append([[state[0], state[1], state[2] / 2.0, jerk / 6.0]])
@@ -191,7 +197,9 @@ def test_what_cannot_be_is_refused_in_one_line() -> None:
     with pytest.raises(InputError, match="mass 0 kg"):
         Payload(0.0)
     with pytest.raises(InputError, match="2 joints, the problem has 1"):
-        Problem([[0.0], [1.0]], {"velocity": 1.0}, conditions=Conditions(torque=of(urdf, ("one", "two"))))
+        Problem(
+            [[0.0], [1.0]], {"velocity": 1.0}, conditions=Conditions(torque=of(urdf, ("one", "two")))
+        )
 
 
 def test_limits_are_those_of_the_urdf_unless_given() -> None:

@@ -8,7 +8,16 @@ import numpy as np
 import pytest
 from small_arms import SIX, VERTICAL, pendulum, six_axes, two_links
 
-from formulations import Conditions, InputError, Limits, Problem, check, free_form, free_form_bound, plan
+from formulations import (
+    Conditions,
+    InputError,
+    Limits,
+    Problem,
+    check,
+    free_form,
+    free_form_bound,
+    plan,
+)
 from formulations.problem.torque import TorqueLimits
 
 pytest.importorskip("pinocchio", reason="pin is not installed (extra dynamics)")
@@ -63,7 +72,9 @@ def test_looser_limits_never_make_it_slower_and_the_bound_is_below() -> None:
 
 @pytest.mark.slow
 def test_six_axes_beat_the_motion_that_is_only_slowed_down() -> None:
-    points = np.array([[0.0, -1.2, 1.0, 0.0, 0.5, 0.0], [0.9, -0.6, 0.3, 0.4, 0.0, 1.0], [-0.3, -1.5, 1.6, 1, 1, 0]])
+    points = np.array(
+        [[0.0, -1.2, 1.0, 0.0, 0.5, 0.0], [0.9, -0.6, 0.3, 0.4, 0.0, 1.0], [-0.3, -1.5, 1.6, 1, 1, 0]]
+    )
     limits = Limits.of(velocity=3.0, acceleration=15.0, jerk=150.0, dof=6)
     problem = Problem(points, limits, names=list(SIX))
     efforts = 0.55 * np.array([120.0, 120.0, 70.0, 20.0, 20.0, 20.0])
@@ -90,12 +101,16 @@ def test_other_demands_are_kept_beside_torques() -> None:
 
 
 def test_a_waypoint_that_the_motor_cannot_hold_is_refused() -> None:
-    problem = Problem([[-1.5], [0.0]], {"velocity": 1.0, "acceleration": 1.0, "jerk": 9.0}, names=["hinge"])
+    problem = Problem(
+        [[-1.5], [0.0]], {"velocity": 1.0, "acceleration": 1.0, "jerk": 9.0}, names=["hinge"]
+    )
     weight = 2.0 * 9.81 * 0.5
     asked = Conditions(torque=TorqueLimits(pendulum(), ("hinge",), (weight - 0.1,)))
     with pytest.raises(InputError) as caught:
         free_form(problem, conditions=asked)
-    assert "waypoint 2, joint hinge: holding the arm takes 9.81 N m, 9.71 N m are available" in str(caught.value)
+    assert "waypoint 2, joint hinge: holding the arm takes 9.81 N m, 9.71 N m are available" in str(
+        caught.value
+    )
 
 
 def test_a_time_limit_ends_the_search_with_a_motion_that_keeps_all() -> None:
