@@ -1,9 +1,9 @@
 """The greatest torque of every joint over a whole motion, between samples too, by branch and bound.
 
-A torque is evaluated at both ends of a span of time. In between it lies within h^2/8 max |tau''| of the straight
-line through the two values, where ``growth`` bounds the second derivative. Spans in which the bound is above
-the greatest torque found by more than ``RESOLUTION`` of the limit are halved. So the number that is reported is
-never below what the motion reaches, and at most ``RESOLUTION`` of the limit above it.
+A torque is evaluated at both ends of a span of time. In between it lies within h^2/8 max |tau''| of the
+straight line through the two values, where ``growth`` bounds the second derivative. Spans in which this bound
+is above the greatest torque found by more than ``RESOLUTION`` of the limit are halved. So the motion reaches
+the torque that is reported, and nowhere exceeds it by more than ``RESOLUTION`` of the limit.
 """
 
 from __future__ import annotations
@@ -132,10 +132,10 @@ class _Search:
             blocks = np.split(np.arange(len(pieces)), range(_BLOCK, len(pieces), _BLOCK))
             bounds = np.concatenate([self._bounds(pieces[i], spans[i], torques[i]) for i in blocks])
             allowed = np.abs(self.reached) + RESOLUTION * self.dynamics.available
-            halve = (bounds > allowed).any(axis=1)
+            halve = np.asarray((bounds > allowed).any(axis=1))
             self.opened += 2 * int(halve.sum())
             if self.opened > _MOST_SPANS:
-                halve[:] = False
+                halve = np.zeros_like(halve)
             self.upper = np.maximum(self.upper, bounds[~halve].max(axis=0, initial=0.0))
             pieces, spans, torques = self._halved(pieces[halve], spans[halve], torques[halve])
 

@@ -33,7 +33,10 @@ def symbolic_torques(dynamics: ArmDynamics) -> Any:
         (q, v, a), each (dof,), to torques (dof,) as shares of what is available.
     """
     q, v, a = (casadi.SX.sym(name, dynamics.dof) for name in "qva")
-    turns, spins, moves, poses, forces, moments = [], [], [], [], [], []
+    turns: list[Any] = []
+    spins: list[Any] = []
+    moves: list[Any] = []
+    poses, forces, moments = [], [], []
     for body in dynamics.bodies:
         rotation, offset = _pose(body, q[body.joint])
         axis = casadi.DM(body.axis)

@@ -86,8 +86,8 @@ class AskedConditions:
         str | None,
         Parameter(
             metavar="T,T,..",
-            help="Limits on the torques of the motors [N m], one for all joints or one for each, or urdf for its "
-            "efforts; needs a robot with inertias, and the extra dynamics.",
+            help="Limits on the torques of the motors [N m], one for all joints or one for each, or urdf for "
+            "its efforts; needs a robot with inertias, and the extra dynamics.",
         ),
     ] = None
     payload: Annotated[

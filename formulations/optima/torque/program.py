@@ -8,9 +8,9 @@
         v, a at nodes and v + h a / 2 within the limits                             (4)
         |M(q) a + C(q, v) v + g(q) + D v| <= (1 - margin) limit   at nodes, and in the middle    (5)
 
-(4) bounds the Bernstein coefficients of the velocity. Elsewhere the torque may exceed (5): ``search`` looks there
-and raises the margins. Positions within limits are posed on Bernstein coefficients too. Joints
-without a jerk limit have no (3); their accelerations are continuous here, which costs little time on fine steps.
+(4) bounds the Bernstein coefficients of the velocity. Elsewhere the torque may exceed (5): ``search`` looks
+there and raises the margins. Positions within limits are posed on Bernstein coefficients too. Joints without a
+jerk limit have no (3); their accelerations are continuous here, which costs little time on fine steps.
 All demands that are linear (zones, windows, times, states at the ends, cycles) are bounds or linear rows.
 """
 

@@ -1,4 +1,4 @@
-"""URDFs of small arms with inertias, written here: a pendulum, a planar arm of two links, an arm of six axes."""
+"""URDFs of small arms with inertias, made here: a pendulum, a planar arm of two links, an arm of six axes."""
 
 from __future__ import annotations
 

@@ -39,7 +39,8 @@ def test_about_a_vertical_axis_a_torque_limit_is_an_acceleration_limit() -> None
     """tau = I a: the optimum is that of the acceleration limit tau / I."""
     exact = free_form(turning(acceleration=2.4 / INERTIA))
     found = free_form(turning(), conditions=hinged(2.4))
-    assert found.verdict is not None and found.verdict.feasible
+    assert found.verdict is not None
+    assert found.verdict.feasible
     assert exact.seconds * (1.0 - 1e-5) <= found.seconds <= exact.seconds * 1.003
     peak = next(peak for peak in found.verdict.peaks if peak.quantity == "torque")
     assert peak.factor == pytest.approx(1.0, abs=1e-3)
@@ -60,7 +61,8 @@ def test_looser_limits_never_make_it_slower_and_the_bound_is_below() -> None:
     for factor in (0.8, 0.9, 1.0, 10.0):
         asked = Conditions(torque=replace(torque, limits=(33.0 * factor, 11.0 * factor)))
         motion = plan(problem, conditions=asked)
-        assert motion.bound is not None and motion.bound <= motion.seconds
+        assert motion.bound is not None
+        assert motion.bound <= motion.seconds
         assert check(problem, motion.trajectory, conditions=asked).feasible
         seconds.append(motion.seconds)
     assert (np.diff(seconds) <= 2e-3 * np.array(seconds[1:])).all(), seconds
@@ -80,7 +82,8 @@ def test_six_axes_beat_the_motion_that_is_only_slowed_down() -> None:
     efforts = 0.55 * np.array([120.0, 120.0, 70.0, 20.0, 20.0, 20.0])
     asked = Conditions(torque=TorqueLimits(six_axes(), SIX, tuple(efforts)))
     found = free_form(problem, conditions=asked)
-    assert found.verdict is not None and found.verdict.feasible
+    assert found.verdict is not None
+    assert found.verdict.feasible
     slowed = next(stage for stage in found.stages if stage.name.startswith("without torque limits"))
     assert found.seconds < 0.99 * slowed.seconds
 
@@ -95,7 +98,8 @@ def test_other_demands_are_kept_beside_torques() -> None:
         start_velocity=np.array([0.2]),
     )
     found = free_form(turning(), conditions=asked)
-    assert found.verdict is not None and found.verdict.feasible, found.verdict
+    assert found.verdict is not None
+    assert found.verdict.feasible, found.verdict
     assert found.trajectory is not None
     assert found.trajectory.passage_times[1] >= 1.0 - 1e-9
 
@@ -115,4 +119,5 @@ def test_a_waypoint_that_the_motor_cannot_hold_is_refused() -> None:
 
 def test_a_time_limit_ends_the_search_with_a_motion_that_keeps_all() -> None:
     found = free_form(turning(), conditions=hinged(2.4), time_limit=1.0)
-    assert found.verdict is not None and found.verdict.feasible
+    assert found.verdict is not None
+    assert found.verdict.feasible

@@ -83,5 +83,5 @@ def test_what_cannot_be_is_refused(folder: Path, lines: str, words: str) -> None
 
 
 def test_torques_need_a_robot() -> None:
-    with pytest.raises(InputError, match="conditions.torque: needs a robot"):
+    with pytest.raises(InputError, match=r"conditions\.torque: needs a robot"):
         parse("waypoints = [[0.0], [1.0]]\n[limits]\nvelocity = 1\n[conditions]\ntorque = 3\n")
