@@ -84,4 +84,5 @@ TOPPRA_TORQUE = Rung(
     name="TOPP-RA with torque limits, clamped cubic (no jerk limit)",
     meaning="TOPP-RA on the clamped cubic with torque limits, no jerk limit",
     find=toppra_torque,
+    knows_conditions=True,
 )

@@ -201,7 +201,8 @@ def free_form_bound(
         raise InputError(f"upper: {upper!r} s is not a time")
     require_moderate(problem)
     # no inequality here knows of torques: the bound is that of all motions that keep the rest
-    asked_for = (problem.conditions if conditions is None else conditions).without_torque()
+    given = problem.conditions if conditions is None else conditions
+    asked_for = given.without_torque()
     problem = replace(problem, conditions=problem.conditions.without_torque())
     demands = Demands.of(problem, asked_for)
     deadline = Deadline(time_limit, stop)
@@ -216,17 +217,19 @@ def free_form_bound(
         if asked is not None:
             certificate["without"] = sorted(search.without)
     method = max(search.bounds, key=lambda key: search.bounds[key])
+    # a motion that attains the bound may exceed the torques that were left out
+    torques = given.torque is not None
     return FreeFormBound(
         problem,
         search.bounds[method],
         method,
         search.bounds,
-        search.upper,
+        upper if torques else search.upper,
         ending.status,
         time.perf_counter() - started,
         search.rows,
-        search.motion,
-        search.durations,
+        None if torques else search.motion,
+        None if torques else search.durations,
         search.savings,
         certificate,
         ending.reason,

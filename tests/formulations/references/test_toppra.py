@@ -197,7 +197,10 @@ def test_about_a_vertical_axis_a_torque_limit_is_an_acceleration_limit() -> None
     points, names = [[0.0], [0.5], [1.2]], ["hinge"]
     plain = Problem(points, {"velocity": 3.0, "acceleration": 2.4 / inertia}, names=names)
     limited = Problem(
-        points, {"velocity": 3.0, "acceleration": 99.0}, names=names, conditions=Conditions(torque=torque)
+        points,
+        {"velocity": 3.0, "acceleration": 99.0},
+        names=names,
+        conditions=Conditions(torque=torque),
     )
     found, expected = toppra_torque(limited), toppra_cubic(plain)
     assert found.seconds == pytest.approx(expected.seconds, rel=1e-3)
