@@ -225,8 +225,7 @@ def free_form(
             Demands.of(problem, asked),
             partial(
                 free_form,
-                problem,
-                conditions=asked.without_torque(),
+                replace(problem, conditions=asked.without_torque()),
                 mesh=mesh,
                 tolerance=tolerance,
                 solver=solver,

@@ -258,7 +258,7 @@ def torque_feasible(
     left = deadline.left
     first = kinematic(time_limit=left / 2.0 if np.isfinite(left) else None)
     if first.trajectory is None:
-        return replace(first, conditions=demands.conditions)
+        return replace(first, problem=demands.problem, conditions=demands.conditions)
     search._unslowed = first.trajectory.seconds
     search.clock = time.perf_counter()
     meshes = (2 * mesh,) if tolerance >= 1e-3 else (2 * mesh, 4 * mesh)
@@ -275,6 +275,7 @@ def torque_feasible(
     unhindered = len(search.stages) == 1 and search.converged
     return replace(
         first,
+        problem=demands.problem,
         conditions=demands.conditions,
         durations=np.diff(motion.passage_times) - demands.waits[:-1],
         trajectory=motion,
