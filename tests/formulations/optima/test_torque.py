@@ -121,3 +121,12 @@ def test_a_time_limit_ends_the_search_with_a_motion_that_keeps_all() -> None:
     found = free_form(turning(), conditions=hinged(2.4), time_limit=1.0)
     assert found.verdict is not None
     assert found.verdict.feasible
+
+
+def test_a_problem_carries_its_torque_limits_and_the_gap_is_that_of_its_motion() -> None:
+    given = plan(turning(), conditions=hinged(2.4))
+    carried = plan(replace(turning(), conditions=hinged(2.4)))
+    assert carried.seconds == given.seconds
+    assert carried.proof is not None
+    assert carried.proof.gap == pytest.approx(carried.gap)
+    assert carried.gap > 0.01  # the bound knows no torque
