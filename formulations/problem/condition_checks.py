@@ -41,6 +41,8 @@ def require_fitting(asked: Conditions, problem: Problem) -> None:
         _require_limits(problem, segment, limits)
     for waypoint, zone in asked.tolerance.items():
         _require_zone(problem, waypoint, zone)
+    if asked.torque is not None:
+        asked.torque.require_fitting(problem)
     _require_times(asked, problem)
     _require_ends(asked, problem)
     _require_tool(asked, problem)

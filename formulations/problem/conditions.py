@@ -11,6 +11,7 @@ import numpy as np
 from formulations.problem.arrays import Array
 from formulations.problem.condition_checks import require_fitting
 from formulations.problem.limits import Limits
+from formulations.problem.torque import TorqueLimits
 
 if TYPE_CHECKING:
     from formulations.problem.problem import Problem
@@ -59,6 +60,8 @@ class Conditions:
     tool_zones : mapping of int to float
         Radius of the ball around the tool point of a waypoint in which the tool passes it [m]. The joints
         pass it within ``tolerance`` too; where none is given there, within ``TOOL_ZONE_TOLERANCE``.
+    torque : TorqueLimits, optional
+        Limits on the torques of the motors, with the arm whose dynamics tell them.
 
     Examples
     --------
@@ -85,6 +88,7 @@ class Conditions:
     tool_speed: float | None = None
     segment_tool_speed: Mapping[int, float] = field(default_factory=dict)
     tool_zones: Mapping[int, float] = field(default_factory=dict)
+    torque: TorqueLimits | None = None
 
     @property
     def asked(self) -> tuple[str, ...]:
@@ -182,6 +186,15 @@ class Conditions:
         passage = {k: time for k, time in self.passage.items() if k != problem.n_segments}
         return replace(self, total=None, passage=passage)
 
+    def without_torque(self) -> Conditions:
+        """Drop the torque limits: what every motion that keeps them keeps too.
+
+        Returns
+        -------
+        Conditions
+        """
+        return replace(self, torque=None)
+
     def validate(self, problem: Problem) -> None:
         """Refuse conditions that do not fit a problem.
 
@@ -198,7 +211,9 @@ class Conditions:
         require_fitting(self, problem)
 
     def of_joint(self, joint: int) -> Conditions:
-        """Return the conditions on one joint alone; those on the tool tie joints together and are left out.
+        """Return the conditions on one joint alone, without those on the tool and on torques.
+
+        They tie the joints together.
 
         Parameters
         ----------
@@ -223,6 +238,7 @@ class Conditions:
             start_acceleration=mine(self.start_acceleration),
             end_acceleration=mine(self.end_acceleration),
             segment_limits={k: limits.of_joint(joint) for k, limits in self.segment_limits.items()},
+            torque=None,
         )
 
     def limits(self, problem: Problem) -> list[Limits]:
@@ -339,6 +355,6 @@ def _same(one: object, other: object) -> bool:
         return one.keys() == other.keys() and all(_same(one[key], other[key]) for key in one)
     if isinstance(one, str) or isinstance(other, str) or one is None or other is None:
         return one is other or (isinstance(one, str) and one == other)
-    if isinstance(one, Limits | frozenset | bool):
+    if isinstance(one, Limits | TorqueLimits | frozenset | bool):
         return one == other
     return np.array_equal(np.asarray(one), np.asarray(other))

@@ -9,6 +9,7 @@ result is discretised: the grid is doubled until the time changes little, and th
 from __future__ import annotations
 
 import logging
+from collections.abc import Sequence
 from typing import Any
 
 import numpy as np
@@ -43,12 +44,31 @@ def toppra_on(problem: Problem, path: Trajectory) -> Outcome:
         Its note states the grid and the grid error.
     """
     problem.require_plain("TOPP-RA")
+    return timed(problem, path)
+
+
+def timed(problem: Problem, path: Trajectory, further: Sequence[Any] = ()) -> Outcome:
+    """Time the path of a motion, also under constraints of toppra that are given.
+
+    Parameters
+    ----------
+    problem : Problem
+        Its velocity and acceleration limits are used.
+    path : Trajectory
+        A motion through the waypoints, from rest to rest.
+    further : sequence of toppra.constraint.Constraint
+
+    Returns
+    -------
+    Outcome
+        Its note states the grid and the grid error.
+    """
     if not problem.moving_joints:
         return Outcome.ok(0.0, note="nothing moves")
     results: list[tuple[int, float]] = []
     reason = ""
     for grid in _GRIDS:
-        answer = _time(problem, _ArcLength(problem, path, grid))
+        answer = _time(problem, _ArcLength(problem, path, grid), further)
         if isinstance(answer, str):
             reason = f"{answer} at {grid} intervals per piece"
             continue
@@ -81,13 +101,28 @@ def toppra_cubic(problem: Problem) -> Outcome:
     problem.require_plain("TOPP-RA")
     if not problem.moving_joints:
         return Outcome.ok(0.0, note="nothing moves")
+    return timed(problem, clamped_cubic(problem))
+
+
+def clamped_cubic(problem: Problem) -> Trajectory:
+    """Make the clamped cubic spline through the waypoints, whose knots are at displacement times.
+
+    Parameters
+    ----------
+    problem : Problem
+        Some joint moves.
+
+    Returns
+    -------
+    Trajectory
+        Its path is meant; its pace keeps no limit.
+    """
     times = displacement_durations(problem)
     moves = times > 0.0
     knots = np.concatenate([[0.0], np.cumsum(times[moves])])
     points = problem.waypoints[np.concatenate([[True], moves])]
     spline = CubicSpline(knots, points, bc_type="clamped")
-    path = Trajectory(np.diff(knots), np.moveaxis(spline.c[::-1], 0, -1))
-    return toppra_on(problem, path)
+    return Trajectory(np.diff(knots), np.moveaxis(spline.c[::-1], 0, -1))
 
 
 class _ArcLength(toppra.interpolator.AbstractGeometricPath):  # type: ignore[misc]  # untyped base
@@ -163,7 +198,7 @@ class _ArcLength(toppra.interpolator.AbstractGeometricPath):  # type: ignore[mis
         """None, because this is a path and no list of points."""
 
 
-def _time(problem: Problem, path: _ArcLength) -> float | str:
+def _time(problem: Problem, path: _ArcLength, further: Sequence[Any]) -> float | str:
     """Duration on one grid [s], or what went wrong."""
     if path.fault:
         return path.fault
@@ -173,7 +208,7 @@ def _time(problem: Problem, path: _ArcLength) -> float | str:
             toppra.constraint.JointAccelerationConstraint(_symmetric(problem.limits.acceleration))
         )
     algorithm = toppra.algorithm.TOPPRA(
-        constraints, path, gridpoints=path.grid, solver_wrapper="seidel"
+        [*constraints, *further], path, gridpoints=path.grid, solver_wrapper="seidel"
     )
     _, speeds, _ = algorithm.compute_parameterization(0.0, 0.0)
     if speeds is None or not np.isfinite(speeds).all():

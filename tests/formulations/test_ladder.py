@@ -39,6 +39,7 @@ AGREED = {  # keys and kinds that other programs read; new ones may join
     "family_longest_segment": "upper",
     "toppra_family_path": "reference",
     "toppra_cubic": "reference",
+    "toppra_torque": "reference",
     "copp_family_path": "reference",
 }
 LOWER_OF_ALL = ("displacement", "ruckig_end_to_end", "free_form_lower")

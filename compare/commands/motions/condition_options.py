@@ -8,6 +8,7 @@ from __future__ import annotations
 from collections.abc import Callable
 from dataclasses import dataclass, replace
 from math import inf, isfinite
+from pathlib import Path
 from typing import TYPE_CHECKING, Annotated, Any, ClassVar, TypeVar
 
 from cyclopts import Group, Parameter
@@ -16,6 +17,7 @@ if TYPE_CHECKING:
     from formulations import Conditions, Problem
     from formulations.problem.arrays import Array
     from formulations.problem.conditions import EndState
+    from formulations.problem.torque import TorqueLimits
 
 _CONDITIONS = Group(
     "Conditions",
@@ -90,6 +92,20 @@ class AskedConditions:
             help="One turn of a cycle: end with the velocity and the acceleration of the start.",
         ),
     ] = False
+    torque: Annotated[
+        str | None,
+        Parameter(
+            metavar="T,T,..",
+            help="Limits on the torques of the motors [N m], one for all joints or one for each, or urdf for "
+            "its efforts; needs a robot with inertias, and the extra dynamics.",
+        ),
+    ] = None
+    payload: Annotated[
+        float | None,
+        Parameter(
+            metavar="KG", help="A mass at the end of the arm, for --torque; the file can say where."
+        ),
+    ] = None
     start_velocity: Annotated[
         str | None,
         _state(
@@ -117,7 +133,9 @@ ConditionOptions = Annotated[AskedConditions | None, Parameter(name="*")]
 PlanConditionOptions = Annotated[ZonedByTolerance | None, Parameter(name="*")]
 
 
-def conditions_of(asked: AskedConditions | None, problem: Problem) -> Conditions:
+def conditions_of(
+    asked: AskedConditions | None, problem: Problem, urdf: Path | None = None
+) -> Conditions:
     """Lay what is asked for by options over the conditions of a problem.
 
     Parameters
@@ -126,6 +144,8 @@ def conditions_of(asked: AskedConditions | None, problem: Problem) -> Conditions
         The options; None where none was given.
     problem : Problem
         Whose joints move, in whose unit values are typed, and whose conditions stay where no option is given.
+    urdf : Path, optional
+        The URDF of its robot, which torque limits are about.
 
     Returns
     -------
@@ -162,9 +182,32 @@ def conditions_of(asked: AskedConditions | None, problem: Problem) -> Conditions
             **own.tool_zones,
             **_numbered("--tool-zone", asked.tool_zone, "K=R, such as 2=0.01", float),
         },
+        torque=_torque(asked, problem, urdf),
         **states,
     )
     found.validate(problem)
+    return found
+
+
+def _torque(asked: AskedConditions, problem: Problem, urdf: Path | None) -> TorqueLimits | None:
+    """Torque limits of the options, laid over those of the problem."""
+    from formulations import InputError
+    from formulations.problem.torque import Payload, TorqueLimits
+
+    found = problem.conditions.torque
+    if asked.torque is not None:
+        if found is None and urdf is None:
+            raise InputError("--torque: needs a robot: --robot URDF, or the key robot in FILE")
+        limits: tuple[float, ...] | None = None
+        if asked.torque.strip() != "urdf":
+            limits = tuple(_values("--torque", asked.torque, problem.dof).tolist())
+        if found is None and urdf is not None:
+            found = TorqueLimits.from_urdf(urdf, problem.names)
+        found = None if found is None else replace(found, limits=limits)
+    if asked.payload is not None:
+        if found is None:
+            raise InputError("--payload: has no meaning without --torque")
+        found = replace(found, payload=Payload(asked.payload))
     return found
 
 
@@ -218,17 +261,23 @@ def _end_state(option: str, text: str, problem: Problem) -> EndState:
 
 def _amounts(option: str, text: str, problem: Problem, *, alone: bool = True) -> Array:
     """Values of the joints, (dof,) [rad or m], from numbers in the unit of the file; alone: one is for all."""
+    from formulations.problem.joint_words import factors
+
+    return _values(option, text, problem.dof, alone) * factors(problem.units, problem.display_unit)
+
+
+def _values(option: str, text: str, dof: int, alone: bool = True) -> Array:
+    """Numbers of the joints, (dof,); alone: one is for all."""
     import numpy as np
 
     from formulations import InputError
-    from formulations.problem.joint_words import factors
 
     try:
         values: list[Any] = [float(part) for part in text.split(",")]
     except ValueError:
         raise InputError(f"{option}: {text!r} is not a list of numbers") from None
     if alone and len(values) == 1:
-        values *= problem.dof
-    if len(values) != problem.dof or not all(isfinite(value) for value in values):
-        raise InputError(f"{option}: expected {problem.dof} finite numbers, got {text!r}")
-    return np.array(values) * factors(problem.units, problem.display_unit)
+        values *= dof
+    if len(values) != dof or not all(isfinite(value) for value in values):
+        raise InputError(f"{option}: expected {dof} finite numbers, got {text!r}")
+    return np.array(values)

@@ -155,10 +155,20 @@ def problem_of(file: str | None, own: OwnRobot | None, asked: AskedConditions | 
         )
     problem = load(file) if file is not None else own.problem() if own is not None else None
     assert problem is not None
-    problem = replace(problem, conditions=conditions_of(asked, problem))
+    problem = replace(problem, conditions=conditions_of(asked, problem, _urdf(file, own)))
     for hint in problem.hints:
         print(f"hint: {hint}", file=sys.stderr)
     return problem
+
+
+def _urdf(file: str | None, own: OwnRobot | None) -> Path | None:
+    """The URDF of a problem's robot; None where it has none."""
+    from formulations import CASES
+    from formulations.problem.toml_file.problem_file import robot_file_in
+
+    if file is None:
+        return _path(own.robot) if own is not None else None
+    return None if file in CASES else robot_file_in(file)
 
 
 def known_arm(file: str | None, own: OwnRobot | None) -> Arm | Robot | None:

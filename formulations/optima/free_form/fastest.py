@@ -31,6 +31,7 @@ from formulations.optima.free_form.vanishing import searched
 from formulations.optima.free_form.why_not import named, why_not
 from formulations.problem.arrays import Array
 from formulations.problem.conditions import Conditions
+from formulations.problem.demands import Demands
 from formulations.problem.errors import InputError, NoFeasibleMotion, NotFoundInTime
 from formulations.problem.problem import Problem
 from formulations.problem.size import require_moderate
@@ -226,6 +227,25 @@ def free_form(
         raise InputError(f"tolerance: {tolerance:g} is not positive")
     if solver not in ("ipopt", "highs"):
         raise InputError(f"solver: {solver!r} is not known (known: highs, ipopt)")
+    if asked.torque is not None:
+        from formulations.optima.torque import torque_feasible  # it searches from what is found here
+
+        return torque_feasible(
+            Demands.of(problem, asked),
+            partial(
+                free_form,
+                replace(problem, conditions=asked.without_torque()),
+                mesh=mesh,
+                tolerance=tolerance,
+                solver=solver,
+                stop=stop,
+                progress=progress,
+            ),
+            mesh=mesh,
+            tolerance=tolerance,
+            deadline=deadline,
+            progress=progress,
+        )
     notes = []
     if solver == "ipopt" and not casadi.has_nlpsol("ipopt"):
         solver = "highs"

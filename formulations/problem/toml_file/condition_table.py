@@ -5,6 +5,7 @@ from __future__ import annotations
 import math
 from collections.abc import Sequence
 from dataclasses import dataclass
+from pathlib import Path
 from typing import Any, Literal
 
 import numpy as np
@@ -26,12 +27,18 @@ from formulations.problem.toml_file.toml_values import (
     read_number,
     shown,
 )
+from formulations.problem.toml_file.torque_table import torque_of_table
 
 _FREE: Literal["free"] = "free"
 
 
 def conditions_of_table(
-    table: Any, unit: str, names: Sequence[str], limits: Limits, n_waypoints: int
+    table: Any,
+    unit: str,
+    names: Sequence[str],
+    limits: Limits,
+    n_waypoints: int,
+    urdf: Path | None = None,
 ) -> Conditions:
     """Read the table.
 
@@ -47,6 +54,8 @@ def conditions_of_table(
         Of the problem; those of segments lie over them.
     n_waypoints : int
         Number of waypoints.
+    urdf : Path, optional
+        The URDF of the problem's robot, whose dynamics torque limits are about.
 
     Returns
     -------
@@ -65,6 +74,7 @@ def conditions_of_table(
         "tolerance": {} if inner is None else dict.fromkeys(range(1, n_waypoints - 1), inner),
         "stops": _stops(table.get("stops", [])),
         "cyclic": read_flag("conditions.cyclic", table.get("cyclic", False)),
+        "torque": torque_of_table(table, names, len(limits.velocity), urdf),
     }
     if "total" in table:
         found["total"] = read_number("conditions.total", table["total"])

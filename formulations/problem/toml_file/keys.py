@@ -61,6 +61,12 @@ CONDITION_KEYS: dict[str, str] = {
     "start_acceleration": "Acceleration at the start [unit/s^2], in the same forms; 0 if left out.",
     "end_acceleration": "Acceleration at the end, in the same forms.",
     "tool_speed": "Greatest speed of the tool point along the whole motion [m/s]; needs `robot` or `arm`.",
+    "torque": "Limits on the torques of the motors [N m; N of a joint that slides]: `true` for those of the "
+    f"URDF (`effort`), or {_PER_JOINT}. Needs a robot and the extra `dynamics`.",
+    "payload": "What the arm carries: a mass [kg], or a table with `mass`, `com` (x, y, z in the frame of the "
+    "link [m]) and `link`; left out, the link that the last joint moves.",
+    "gravity": "x, y, z in the frame of the base [m/s^2]; 0, 0, -9.81 if left out.",
+    "urdf": "The text of a URDF, in place of the robot's file: so that saved problems hold all they need.",
     "waypoint": "Tables `[[conditions.waypoint]]`, each about one waypoint.",
     "segment": "Tables `[[conditions.segment]]`, each about the segment between a waypoint and the next one.",
 }

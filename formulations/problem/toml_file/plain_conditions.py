@@ -12,6 +12,7 @@ from formulations.problem.arrays import Array
 from formulations.problem.conditions import EndState
 from formulations.problem.joint_words import factors
 from formulations.problem.limits import Limits
+from formulations.problem.toml_file.torque_table import table_of_torque
 
 if TYPE_CHECKING:
     from formulations.problem.problem import Problem
@@ -49,6 +50,7 @@ def tables_of_conditions(problem: Problem, unit: str = "rad") -> dict[str, Any]:
     for key in ("start_velocity", "end_velocity", "start_acceleration", "end_acceleration"):
         if getattr(asked, key) is not None:
             found[key] = _state(getattr(asked, key), scales)
+    found |= table_of_torque(asked.torque)
     rows = {
         "tolerance": zones,
         "pass": {k: float(time) for k, time in asked.passage.items()},

@@ -105,6 +105,28 @@ def arm_in(file: str | Path) -> Arm | Robot | None:
     return robot_of_keys(data, Path(file).parent) if "robot" in data else None
 
 
+def robot_file_in(file: str | Path) -> Path | None:
+    """Find the URDF that a problem file names.
+
+    Parameters
+    ----------
+    file : str or Path
+        A problem file that ``load`` accepts.
+
+    Returns
+    -------
+    Path or None
+        None where it names none.
+
+    Raises
+    ------
+    InputError
+        In one line.
+    """
+    data = parse_toml(_text_of(file), str(file))
+    return Path(file).parent / data["robot"] if "robot" in data else None
+
+
 def _text_of(file_or_case: str | Path) -> str:
     """The text of a shipped case or of a file."""
     if str(file_or_case) in CASES:
@@ -179,7 +201,8 @@ def _problem(data: dict[str, Any], folder: Path) -> Problem:
         limits, limit_unit = limits_of_table(data["limits"], unit, names, units, reach)
     conditions = None
     if "conditions" in data:
-        conditions = conditions_of_table(data["conditions"], unit, names, limits, len(waypoints))
+        urdf = folder / data["robot"] if "robot" in data else None
+        conditions = conditions_of_table(data["conditions"], unit, names, limits, len(waypoints), urdf)
     problem = Problem(
         waypoints,
         limits,

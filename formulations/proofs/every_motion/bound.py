@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import time
 from collections.abc import Callable
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, replace
 from typing import Any
 
 import numpy as np
@@ -135,7 +135,8 @@ def free_form_bound(
     problem : Problem
         Waypoints and limits.
     conditions : Conditions, optional
-        In place of the problem's own; the bound is that of the motions that keep them.
+        In place of the problem's own; the bound is that of the motions that keep them. Torque limits are
+        not used, so that the bound holds with them and without.
     gap : float, default 1e-3
         Relative gap between bound and fastest known motion at which the search ends.
     upper : float, optional [s]
@@ -201,7 +202,11 @@ def free_form_bound(
     if upper is not None and not (upper >= 0.0 and np.isfinite(upper)):
         raise InputError(f"upper: {upper!r} s is not a time")
     require_moderate(problem)
-    demands = with_tool_times(Demands.of(problem, conditions))
+    # no inequality here knows of torques: the bound is that of all motions that keep the rest
+    given = problem.conditions if conditions is None else conditions
+    asked_for = given.without_torque()
+    problem = replace(problem, conditions=problem.conditions.without_torque())
+    demands = with_tool_times(Demands.of(problem, asked_for))
     deadline = Deadline(time_limit, stop)
     zones = (demands.waypoints[..., 0] < demands.waypoints[..., 1]).any()
     search = (ZoneSearch if zones else HorizonSearch)(demands, upper, progress)
@@ -215,17 +220,19 @@ def free_form_bound(
         if asked is not None:
             certificate["without"] = sorted(search.without)
     method = max(search.bounds, key=lambda key: search.bounds[key])
+    # a motion that attains the bound may exceed the torques that were left out
+    torques = given.torque is not None
     return FreeFormBound(
         problem,
         search.bounds[method],
         method,
         search.bounds,
-        search.upper,
+        upper if torques else search.upper,
         ending.status,
         time.perf_counter() - started,
         search.rows,
-        search.motion,
-        search.durations,
+        None if torques else search.motion,
+        None if torques else search.durations,
         search.savings,
         certificate,
         ending.reason,

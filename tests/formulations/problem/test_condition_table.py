@@ -10,6 +10,7 @@ from problem_texts import message
 
 from formulations import Limits, Problem, parse
 from formulations.problem.toml_file.keys import CONDITION_KEYS, SEGMENT_KEYS, WAYPOINT_KEYS
+from formulations.problem.toml_file.torque_table import TORQUE_KEYS
 
 DEG = math.pi / 180.0
 
@@ -137,9 +138,9 @@ def test_conditions_go_with_a_family_that_the_file_names() -> None:
     assert (problem.family, problem.conditions.none) == ("3-5-3", False)
 
 
-def test_every_key_is_read() -> None:
+def test_every_key_is_read() -> None:  # those of torques: test_torque_keys
     rows = [line.split(" = ")[0] for line in WHOLE.splitlines() if " = " in line]
-    elsewhere = {"cyclic", "waypoint", "segment", "tool_speed", "tool_radius"}
+    elsewhere = {"cyclic", "waypoint", "segment", "tool_speed", "tool_radius", *TORQUE_KEYS}
     assert {*CONDITION_KEYS, *WAYPOINT_KEYS, *SEGMENT_KEYS} - elsewhere <= set(rows)
 
 

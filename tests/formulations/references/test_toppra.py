@@ -182,3 +182,26 @@ def test_a_path_that_stands_still_for_a_while_is_a_visible_failure() -> None:
         warnings.simplefilter("error")
         outcome = toppra_on(problem, path)
     assert visible(outcome) or outcome.status == "ok"
+
+
+def test_about_a_vertical_axis_a_torque_limit_is_an_acceleration_limit() -> None:
+    pytest.importorskip("pinocchio", reason="pin is not installed (extra dynamics)")
+    from small_arms import VERTICAL, pendulum
+
+    from formulations import Conditions
+    from formulations.problem.torque import TorqueLimits
+    from formulations.references.toppra_torque_ import toppra_torque
+
+    inertia = 0.1 + 2.0 * 0.5**2
+    torque = TorqueLimits(pendulum(VERTICAL), ("hinge",), (2.4,))
+    points, names = [[0.0], [0.5], [1.2]], ["hinge"]
+    plain = Problem(points, {"velocity": 3.0, "acceleration": 2.4 / inertia}, names=names)
+    limited = Problem(
+        points,
+        {"velocity": 3.0, "acceleration": 99.0},
+        names=names,
+        conditions=Conditions(torque=torque),
+    )
+    found, expected = toppra_torque(limited), toppra_cubic(plain)
+    assert found.seconds == pytest.approx(expected.seconds, rel=1e-3)
+    assert toppra_torque(plain).status == "not-applicable"

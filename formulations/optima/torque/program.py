@@ -1,0 +1,249 @@
+"""The nonlinear program of the fastest motion within torque limits.
+
+    minimise    sum h
+    subject to, on each step of duration h that all joints share, with jerk (a+ - a) / h,
+        v+ = v + h (a + a+) / 2                                                     (1)
+        q+ = q + h v + h^2 (2 a + a+) / 6                                           (2)
+        |a+ - a| <= J h                                                             (3)
+        v, a at nodes and v + h a / 2 within the limits                             (4)
+        |M(q) a + C(q, v) v + g(q) + D v| <= (1 - margin) limit   at nodes, and in the middle    (5)
+
+(4) bounds the Bernstein coefficients of the velocity. Elsewhere the torque may exceed (5): ``search`` looks
+there and raises the margins. Positions within limits are posed on Bernstein coefficients too. Joints without a
+jerk limit have no (3); their accelerations are continuous here, which costs little time on fine steps.
+All demands that are linear (zones, windows, times, states at the ends, cycles) are bounds or linear rows.
+"""
+
+from __future__ import annotations
+
+from functools import cached_property
+from typing import Any
+
+import casadi
+import numpy as np
+
+from formulations.deadlines import NEVER, Deadline
+from formulations.deadlines.ipopt import StoppableIpopt
+from formulations.dynamics import ArmDynamics
+from formulations.dynamics.symbolic import symbolic_torques
+from formulations.optima.torque.steps import Steps
+from formulations.problem.arrays import Array
+from formulations.problem.demands import Demands
+
+_OPTIONS: dict[str, Any] = {
+    "ipopt.print_level": 0,
+    "ipopt.sb": "yes",
+    "print_time": False,
+    "ipopt.bound_relax_factor": 0.0,
+    "ipopt.tol": 1e-8,
+    "ipopt.max_iter": 100,
+    "ipopt.mu_strategy": "adaptive",
+    "error_on_fail": False,
+    "show_eval_warnings": False,
+}
+_SHORTEST = 1e-4  # of the mean step: the least duration of a step
+_UNEVEN = 2.0  # how much longer or shorter than the mean of its segment a step may be
+_INSIDE = 1e-9  # share by which limits are lowered: the tolerance of the solver
+
+
+class TorqueProgram:
+    """The program of one problem on M steps per segment."""
+
+    def __init__(self, demands: Demands, dynamics: ArmDynamics, start: Steps) -> None:
+        """Pose the program.
+
+        Parameters
+        ----------
+        demands : Demands
+        dynamics : ArmDynamics
+        start : Steps
+            Its number of steps is taken, and its times are the units.
+        """
+        self.demands, self.dynamics, self.start = demands, dynamics, start
+        self.S, self.M = start.durations.shape
+        self.dof = start.states.shape[2]
+        self.second = float(start.durations.sum()) / self.S
+        self.units = self._units()
+        self.margins = np.zeros((self.dof, self.S * self.M + 1))
+        self._rows: list[tuple[Any, Array, Array]] = []
+        self._pose()
+
+    def _units(self) -> Array:
+        """Units of position, velocity and acceleration, (3, dof)."""
+        velocity = np.abs(self.demands.velocity).max(axis=(0, 2))
+        steepest = np.abs(self.demands.acceleration).max(axis=(0, 2))
+        reached = np.abs(self.start.states[2]).max(axis=0)
+        a = np.where(np.isfinite(steepest), steepest, np.maximum(reached, velocity / self.second))
+        return np.stack([velocity * self.second, velocity, a])
+
+    def _row(self, expression: Any, low: Any, high: Any) -> None:
+        column = casadi.densify(casadi.vec(expression))
+        n = column.numel()
+        sides = [np.broadcast_to(np.ravel(side, order="F"), n).astype(float) for side in (low, high)]
+        self._rows.append((column, sides[0], sides[1]))
+
+    def _pose(self) -> None:
+        S, M, dof, asked = self.S, self.M, self.dof, self.demands
+        N, (unit, rate, gain) = S * M, self.units
+        h = casadi.MX.sym("h", 1, N)
+        q, v, a = (casadi.MX.sym(name, dof, N + 1) for name in "qva")
+        self._symbols = casadi.veccat(h, q, v, a)
+        rows = np.repeat(np.arange(S), M)
+        H = casadi.repmat(h, dof, 1)
+        v0, v1, a0, a1 = v[:, :-1], v[:, 1:], a[:, :-1], a[:, 1:]
+        speed_up = casadi.repmat(casadi.DM(gain * self.second / rate), 1, N)  # what h a adds to v
+        self._row(v1 - v0 - H * speed_up * (a0 + a1) / 2.0, 0.0, 0.0)  # (1)
+        steps = H * v0 + H**2 * speed_up * (2.0 * a0 + a1) / 6.0
+        self._row(q[:, 1:] - q[:, :-1] - steps, 0.0, 0.0)  # (2)
+        jerk = asked.jerk[rows].T * (self.second / gain)[:, None] * (1.0 - _INSIDE)
+        limited = np.flatnonzero(np.isfinite(jerk).all(axis=1)).tolist()
+        if limited:
+            most = casadi.DM(jerk[limited]) * H[limited, :]
+            change = (a1 - a0)[limited, :]
+            self._row(most - change, 0.0, np.inf)  # (3)
+            self._row(most + change, 0.0, np.inf)
+        velocity = asked.velocity[rows].transpose(2, 1, 0) / rate[None, :, None] * (1.0 - _INSIDE)
+        self._row(v0 + H * speed_up * a0 / 2.0, *velocity)  # (4)
+        bounded = asked.problem.limits.has_position or np.isfinite(asked.position).any()
+        if bounded:
+            inside = asked.position[rows].transpose(2, 1, 0) / unit[None, :, None]
+            self._row(q[:, :-1] + H * v0 / 3.0, *inside)
+            self._row(q[:, 1:] - H * v1 / 3.0, *inside)
+        torques = symbolic_torques(self.dynamics)
+        scales = [casadi.repmat(casadi.DM(one), 1, N + 1) for one in (unit, rate, gain)]
+        middle = (
+            q[:, :-1] + H * v0 / 2.0 + H**2 * speed_up * (5.0 * a0 + a1) / 48.0,
+            v0 + H * speed_up * (3.0 * a0 + a1) / 8.0,
+            (a0 + a1) / 2.0,
+        )
+        self._torques = self._n_rows  # margins change the bounds of these rows
+        for n, states in ((N + 1, (q, v, a)), (N, middle)):  # (5)
+            scaled = (x * scale[:, :n] for x, scale in zip(states, scales, strict=True))
+            self._row(torques.map(n)(*scaled), -1.0, 1.0)
+        held = [
+            k * M for k in np.flatnonzero(asked.stops & (np.ptp(asked.waypoints, axis=2).any(axis=1)))
+        ]
+        if held:  # where the arm stands still in a zone it holds its weight
+            still = casadi.DM.zeros(dof, len(held))
+            weight = casadi.repmat(casadi.DM(unit), 1, len(held))
+            self._row(torques.map(len(held))(q[:, held] * weight, still, still), -1.0, 1.0)
+        if asked.cyclic:
+            for one in (q, v, a):
+                self._row(one[:, 0] - one[:, N], 0.0, 0.0)
+        self._times(h)
+        even = casadi.reshape(h, M, S)
+        self._uneven = self._n_rows  # these rows are opened once even steps are solved
+        self._row(even[1:, :] - even[:-1, :], 0.0, 0.0)
+        cost = casadi.sum2(h)
+        if np.isfinite(asked.passages[-1, 1]) and asked.passages[-1, 0] == asked.passages[-1, 1]:
+            cost = casadi.sum1(casadi.vec((a1 - a0) ** 2 / H))  # the total time is given: the smoothest
+        rows_of_all = casadi.vertcat(*(column for column, _, _ in self._rows))
+        self._nlp = {"x": self._symbols, "p": casadi.MX(0, 1), "f": cost, "g": rows_of_all}
+        self._low, self._high = self._bounds()
+
+    @property
+    def _n_rows(self) -> int:
+        return sum(column.numel() for column, _, _ in self._rows)
+
+    def _times(self, h: Any) -> None:
+        """Rows on the times of segments and of arrivals."""
+        asked, M = self.demands, self.M
+        passed = np.concatenate([[0.0], np.cumsum(asked.waits[:-1])])  # waits before each arrival
+        for k in range(self.S):
+            low, high = asked.durations[k] / self.second
+            if low > 0.0 or np.isfinite(high):
+                self._row(casadi.sum2(h[k * M : (k + 1) * M]), low, high)
+            low, high = (asked.passages[k + 1] - passed[k + 1]) / self.second
+            if low > 0.0 or np.isfinite(high):
+                self._row(casadi.sum2(h[: (k + 1) * M]), low, high)
+
+    def _bounds(self) -> tuple[Array, Array]:
+        """Bounds of the variables: steps, then positions, velocities and accelerations at nodes."""
+        S, M, asked = self.S, self.M, self.demands
+        shortest = _SHORTEST * self.start.durations.mean() / self.second
+        found = []
+        for side, worst in ((0, np.maximum), (1, np.minimum)):
+            before, after = (
+                np.r_[0, np.repeat(np.arange(S), M)],
+                np.r_[np.repeat(np.arange(S), M), S - 1],
+            )
+            states = np.stack(
+                [
+                    worst(given[before, :, side], given[after, :, side])
+                    for given in (asked.position, asked.velocity, asked.acceleration)
+                ]
+            )
+            states[1:] *= 1.0 - _INSIDE
+            states[0, ::M] = asked.waypoints[..., side]
+            stiff = np.isfinite(asked.jerk).all(axis=0)
+            if not asked.cyclic:
+                states[1, [0, -1]] = asked.end_velocity[..., side]
+                states[2][[0, -1]] = np.where(
+                    stiff, asked.end_acceleration[..., side], states[2][[0, -1]]
+                )
+            for k in np.flatnonzero(asked.stops):
+                states[1, k * M] = 0.0
+                states[2, k * M] = np.where(stiff, 0.0, states[2, k * M])
+            steps = np.full(S * M, (shortest, np.inf)[side])
+            found.append(np.concatenate([steps, (states / self.units[:, None]).ravel()]))
+        return found[0], found[1]
+
+    def solve(self, start: Steps, *, even: bool, deadline: Deadline = NEVER) -> tuple[Steps, bool, str]:
+        """Solve the program with the margins at hand.
+
+        Parameters
+        ----------
+        start : Steps
+            Of this program's shape.
+        even : bool
+            Whether all steps of a segment last equally long.
+        deadline : Deadline
+            How long IPOPT may take.
+
+        Returns
+        -------
+        found : Steps
+        converged : bool
+        status : str
+            How IPOPT says it ended, in lower case.
+        """
+        x = np.concatenate(
+            [start.durations.ravel() / self.second, (start.states / self.units[:, None]).ravel()]
+        )
+        low, high = (np.concatenate([row[side] for row in self._rows]) for side in (1, 2))
+        between = np.maximum(self.margins[:, 1:], self.margins[:, :-1])
+        room = 1.0 - np.concatenate([self.margins, between], axis=1).ravel(order="F")
+        torques = slice(self._torques, self._torques + len(room))
+        low[torques], high[torques] = -room, room
+        x_low, x_high = self._low.copy(), self._high.copy()
+        if not even:
+            n = self.S * (self.M - 1)
+            low[self._uneven : self._uneven + n] = -np.inf
+            high[self._uneven : self._uneven + n] = np.inf
+            mean = start.durations.mean(axis=1, keepdims=True) / self.second
+            steps = np.repeat(mean, self.M, axis=1).ravel()
+            x_low[: len(steps)] = np.maximum(steps / _UNEVEN, x_low[: len(steps)])
+            x_high[: len(steps)] = steps * _UNEVEN
+        answer = self._solver.solve(
+            deadline,
+            x0=np.clip(x, x_low, x_high),
+            lbx=x_low,
+            ubx=x_high,
+            lbg=low,
+            ubg=high,
+        )
+        if answer is None:
+            return start, False, "stopped at the deadline"
+        found, stats = answer
+        point = np.asarray(found["x"]).ravel()
+        status = str(stats["return_status"]).replace("_", " ").lower()
+        return self._steps(point), bool(stats["success"]), status
+
+    @cached_property
+    def _solver(self) -> StoppableIpopt:
+        return StoppableIpopt("torque", self._nlp, _OPTIONS)
+
+    def _steps(self, x: Array) -> Steps:
+        n = self.S * self.M
+        states = x[n:].reshape(3, n + 1, self.dof) * self.units[:, None]
+        return Steps(np.maximum(x[:n], 1e-12).reshape(self.S, self.M) * self.second, states)
