@@ -9,7 +9,8 @@ from compare.rivals.rival import Answer, Rival
 
 _ALL = (
     Rival(
-        "drake_spline", "Drake, B-spline", "compare.rivals.drake_spline:drake_spline", "drake", ("pydrake.planning",),
+        "drake_spline", "Drake, B-spline", "compare.rivals.drake_spline:drake_spline", "drake",
+        ("pydrake.planning",),
         "the total time of one cubic B-spline (KinematicTrajectoryOptimization, SNOPT)",
         "free passage times: the shares of the time at which waypoints are passed are given to it",
     ),
@@ -30,8 +31,8 @@ _ALL = (
         "a jerk limit, or a better path",
     ),
     Rival(
-        "pyroboplan_cubic", "pyroboplan, cubics", "compare.rivals.pyroboplan_cubic:pyroboplan_cubic", "pyroboplan",
-        ("pyroboplan.trajectory.trajectory_optimization",),
+        "pyroboplan_cubic", "pyroboplan, cubics", "compare.rivals.pyroboplan_cubic:pyroboplan_cubic",
+        "pyroboplan", ("pyroboplan.trajectory.trajectory_optimization",),
         "the segment times of one cubic per segment, with limits at 11 samples of each",
         "zero acceleration at both ends, limits between the samples",
     ),
@@ -43,7 +44,8 @@ _ALL = (
         "a jerk limit, or passing a waypoint without a stop",
     ),
     Rival(
-        "justblend_stops", "justblend, stops", "compare.rivals.justblend_:justblend_stops", "justblend", ("justblend",),
+        "justblend_stops", "justblend, stops", "compare.rivals.justblend_:justblend_stops", "justblend",
+        ("justblend",),
         "straight lines from stop to stop, in closed form",
         "position limits, or passing a waypoint without a stop",
     ),
@@ -66,7 +68,7 @@ _ALL = (
     Rival(
         "ruckig_waypoints", "Ruckig, waypoints", "", "ruckig", (),
         "a motion through intermediate waypoints", "a proof",
-        "its community version sends intermediate waypoints to a cloud service, and no task leaves this machine",
+        "its community version sends such waypoints to a cloud service, and no task leaves this machine",
     ),
     Rival(
         "jacobi", "jacobi-motion", "", "jacobi-motion", (),

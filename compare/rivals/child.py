@@ -39,7 +39,12 @@ def main(folder: Path) -> None:
             durations=answer.motion.durations,
             coefficients=answer.motion.coefficients,
         )
-    said = {"claimed": answer.claimed, "bound": answer.bound, "note": answer.note, "computation": computation}
+    said = {
+        "claimed": answer.claimed,
+        "bound": answer.bound,
+        "note": answer.note,
+        "computation": computation,
+    }
     (folder / "answer.json").write_text(json.dumps(said), "utf-8")
 
 

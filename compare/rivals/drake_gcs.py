@@ -75,6 +75,7 @@ def drake_gcs(problem: Problem, seconds: float) -> Answer:
                 from_derivatives(lambda t, k, d=derivatives: d[k].value(t), breaks, _DEGREE)  # type: ignore[misc]
             )
     motion = Trajectory(
-        np.concatenate([m.durations for m in motions]), np.concatenate([m.coefficients for m in motions])
+        np.concatenate([m.durations for m in motions]),
+        np.concatenate([m.coefficients for m in motions]),
     )
     return Answer(motion, float(found.end_time() - found.start_time()))

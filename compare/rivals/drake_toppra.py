@@ -41,7 +41,11 @@ def drake_toppra(problem: Problem, seconds: float) -> Answer:
         frame = body.body_frame()
     plant.Finalize()
     given = PiecewisePolynomial.CubicHermite(path.x, path(path.x).T, path(path.x, 1).T)
-    grid = np.unique(np.concatenate([np.linspace(a, b, _GRID + 1) for a, b in zip(path.x[:-1], path.x[1:], strict=True)]))
+    grid = np.unique(
+        np.concatenate(
+            [np.linspace(a, b, _GRID + 1) for a, b in zip(path.x[:-1], path.x[1:], strict=True)]
+        )
+    )
     timing = Toppra(given, plant, grid)
     timing.AddJointVelocityLimit(-limits.velocity, limits.velocity)
     if limits.has_acceleration:
@@ -52,4 +56,6 @@ def drake_toppra(problem: Problem, seconds: float) -> Answer:
     breaks = np.array(found.get_segment_times())
     derivatives = [found.derivative(k) for k in range(4)]
     pace = from_derivatives(lambda t, k: derivatives[k].value(t), breaks - breaks[0], 3)
-    return Answer(along(as_pieces(path), pace), float(breaks[-1] - breaks[0]), note=f"{len(grid)} grid points")
+    return Answer(
+        along(as_pieces(path), pace), float(breaks[-1] - breaks[0]), note=f"{len(grid)} grid points"
+    )

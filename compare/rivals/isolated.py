@@ -1,4 +1,4 @@
-"""A rival in a process of its own, with limits of time and memory: it may crash or hang, and only its row shows it."""
+"""A rival in a process of its own, with limits of time and memory: only its row shows a crash."""
 
 from __future__ import annotations
 
@@ -112,7 +112,9 @@ def run_apart(
         return ended or _answer(process.returncode, folder)
 
 
-def _wait(process: subprocess.Popen[bytes], folder: Path, seconds: float, stop: Callable[[], bool]) -> Ran | None:
+def _wait(
+    process: subprocess.Popen[bytes], folder: Path, seconds: float, stop: Callable[[], bool]
+) -> Ran | None:
     """Wait until the process has ended; what ended it before that."""
     begun, started = time.monotonic(), None
     while process.poll() is None:

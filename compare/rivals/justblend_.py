@@ -65,7 +65,11 @@ def _generated(problem: Problem, *, blends: bool) -> Answer:
         blend_radii=radii if blends and len(radii) else None,
         corner_handling=corners.HYBRID if blends else corners.STRICT_CORNERS,
     )
-    kind = justblend.SCurveTrajectoryGenerator if limits.has_jerk else justblend.TrapezoidalTrajectoryGenerator
+    kind = (
+        justblend.SCurveTrajectoryGenerator
+        if limits.has_jerk
+        else justblend.TrapezoidalTrajectoryGenerator
+    )
     generator = kind(problem.dof)
     jerk = limits.jerk if limits.has_jerk else None
     generator.set_limits(justblend.Limits(limits.velocity, limits.acceleration, jerk))
@@ -92,8 +96,9 @@ def _switches(found: Any, straight: Any, has_jerk: bool) -> Array:
             profile = (at.qdd if has_jerk else at.qd) @ np.asarray(segment.u_dir)
             times += kinks(inside, profile).tolist()
         times.append(end)
-    times = np.array(times)
-    return times[np.append(np.diff(times) > 1e-9 * times[-1], True)]
+    found_times = np.array(times)
+    kept = np.append(np.diff(found_times) > 1e-9 * found_times[-1], True)
+    return np.asarray(found_times[kept])
 
 
 def kinks(times: Array, values: Array) -> Array:

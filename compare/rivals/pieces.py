@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import itertools
 from collections.abc import Callable
 from math import factorial
 
@@ -31,7 +32,7 @@ def from_derivatives(value: Callable[[float, int], Array], breaks: Array, degree
     Trajectory
     """
     pieces = []
-    for start, end in zip(breaks[:-1], breaks[1:], strict=True):
+    for start, end in itertools.pairwise(breaks):
         middle = 0.5 * (start + end)
         terms = [np.asarray(value(middle, k)).ravel() / factorial(k) for k in range(degree + 1)]
         pieces.append([_shifted(series, start - middle) for series in np.stack(terms, axis=1)])
@@ -55,14 +56,14 @@ def along(path: Trajectory, pace: Trajectory) -> Trajectory:
     """
     degree = (path.coefficients.shape[2] - 1) * (pace.coefficients.shape[2] - 1)
     durations, pieces = [], []
-    for start, duration, series in zip(
+    for _start, duration, series in zip(
         pace.breaks, pace.durations, pace.coefficients[:, 0], strict=False
     ):
         s = Polynomial(series)
         low, high = s(0.0), s(duration)
         crossed = path.breaks[(path.breaks > low) & (path.breaks < high)]
         cuts = np.array([0.0, *(_time_at(s, value, duration) for value in crossed), duration])
-        for begin, end in zip(cuts[:-1], cuts[1:], strict=True):
+        for begin, end in itertools.pairwise(cuts):
             if end - begin <= 1e-12 * pace.seconds:  # rounding between two breaks at the same place
                 continue
             at = s(0.5 * (begin + end))

@@ -37,7 +37,10 @@ def pyroboplan_cubic(problem: Problem, seconds: float) -> Answer:
             parent, pinocchio.JointModelRZ(), pinocchio.SE3.Identity(), f"joint{j + 1}"
         )
     low, high = problem.position_bounds.T
-    model.lowerPositionLimit, model.upperPositionLimit = np.maximum(low, -_UNLIMITED), np.minimum(high, _UNLIMITED)
+    model.lowerPositionLimit, model.upperPositionLimit = (
+        np.maximum(low, -_UNLIMITED),
+        np.minimum(high, _UNLIMITED),
+    )
     stopping = REFERENCES["ruckig_stop_and_go"](problem).durations
     longest = 10.0 if stopping is None else 4.0 * float(stopping.max())
     options = CubicTrajectoryOptimizationOptions(
@@ -52,9 +55,13 @@ def pyroboplan_cubic(problem: Problem, seconds: float) -> Answer:
         max_jerk=limits.jerk,
         max_planning_time=_SHARE * seconds,
     )
-    found = CubicTrajectoryOptimization(model, pinocchio.GeometryModel(), options).plan(list(problem.waypoints))
+    found = CubicTrajectoryOptimization(model, pinocchio.GeometryModel(), options).plan(
+        list(problem.waypoints)
+    )
     if found is None:
         return Answer(None, note="its solver found no motion")
     durations = np.array([end - start for start, end in found.segment_times])
-    coefficients = np.moveaxis(np.array(found.coeffs), 0, 1)[..., ::-1]  # highest power first, a list per joint
+    coefficients = np.moveaxis(np.array(found.coeffs), 0, 1)[
+        ..., ::-1
+    ]  # highest power first, a list per joint
     return Answer(Trajectory(durations, coefficients.copy()), float(durations.sum()))

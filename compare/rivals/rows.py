@@ -191,7 +191,12 @@ def run_rival(
     -------
     RivalRow
     """
-    called = {"problem": problem.name, "rival": rival.key, "version": version(rival.package), "bound": bound}
+    called: dict[str, Any] = {
+        "problem": problem.name,
+        "rival": rival.key,
+        "version": version(rival.package),
+        "bound": bound,
+    }
     if not rival.refusal:
         try:
             problem.require_plain(rival.name)
@@ -209,14 +214,20 @@ def run_rival(
         words = f"answers {answer.motion.dof} joints of {problem.dof}"
         return RivalRow(**called | {"reason": words}, status=BREAKS)
     entries = judged(problem, answer.motion)
-    if answer.claimed is not None and abs(answer.claimed - entries["seconds"]) > 1e-6 * entries["seconds"]:
-        entries["faults"] = (f"claims {answer.claimed:.6g} s, takes {entries['seconds']:.6g} s", *entries["faults"])
+    if (
+        answer.claimed is not None
+        and abs(answer.claimed - entries["seconds"]) > 1e-6 * entries["seconds"]
+    ):
+        entries["faults"] = (
+            f"claims {answer.claimed:.6g} s, takes {entries['seconds']:.6g} s",
+            *entries["faults"],
+        )
         entries["status"] = BREAKS
     return RivalRow(**called, **entries)
 
 
 def _ours(problem: Problem, seconds: float, stop: Callable[[], bool]) -> RivalRow:
-    called = {"problem": problem.name, "rival": OURS, "version": version(OURS)}
+    called: dict[str, Any] = {"problem": problem.name, "rival": OURS, "version": version(OURS)}
     begun = time.perf_counter()
     try:
         found = plan(problem, conditions=problem.conditions, gap=1e-4, time_limit=seconds, stop=stop)
@@ -225,7 +236,9 @@ def _ours(problem: Problem, seconds: float, stop: Callable[[], bool]) -> RivalRo
     called |= {"computation": time.perf_counter() - begun, "bound": found.bound or None}
     if found.found.trajectory is None:
         return RivalRow(**called, status=KEEPS, reason="no joint moves", seconds=0.0)
-    return RivalRow(**called, claimed=found.seconds, own_bound=found.bound, **judged(problem, found.trajectory))
+    return RivalRow(
+        **called, claimed=found.seconds, own_bound=found.bound, **judged(problem, found.trajectory)
+    )
 
 
 def version(package: str) -> str:

@@ -7,6 +7,8 @@ of T in the limits, and the products at the waypoints, where v and a of two segm
 
 from __future__ import annotations
 
+from typing import Any
+
 import numpy as np
 
 from compare.rivals.rival import Answer
@@ -74,7 +76,11 @@ class _Program:
             for a, b, m in zip(least, most, moves, strict=True)
         ]
         inner = range(1, count)
-        v = {(k, j): add(lb=-limits.velocity[j], ub=limits.velocity[j]) for k in inner for j in range(dof)}
+        v = {
+            (k, j): add(lb=-limits.velocity[j], ub=limits.velocity[j])
+            for k in inner
+            for j in range(dof)
+        }
         a = {
             (k, j): add(lb=-limits.acceleration[j], ub=limits.acceleration[j])
             for k in (inner if smooth else ())
@@ -82,7 +88,7 @@ class _Program:
         }
         low, high = problem.position_bounds.T
         h = 1.0 / _STEPS
-        self._steps: dict[tuple[int, int], list[tuple[object, object, object, object]]] = {}
+        self._steps: dict[tuple[int, int], list[tuple[Any, Any, Any, Any]]] = {}
         require = model.addCons  # type: ignore[attr-defined]
         for k, T in enumerate(self.times):
             square = add(lb=float(least[k]) ** 2)
@@ -96,7 +102,7 @@ class _Program:
                 b = a.get((k, j))
                 b = 0.0 if b is None else square * b
                 chain = []
-                for i in range(_STEPS):
+                for _ in range(_STEPS):
                     bent = add(**free)  # c = T^3 j, or b where there is no jerk limit
                     if smooth:
                         c = bent

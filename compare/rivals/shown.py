@@ -133,11 +133,17 @@ def chart(rows: Sequence[RivalRow]) -> dict[str, Any]:
         for row in rows
         if row.seconds is not None
     ]
-    lines.sort(key=lambda line: line["seconds"])  # type: ignore[arg-type,return-value]
+    lines.sort(key=lambda line: line["seconds"])
     barrier = next((row.bound for row in rows if row.bound), None)
     said = [f"no motion is faster than {barrier:.4f} s"] if barrier else []
     said += [f"{line['name']} {line['seconds']:.4f} s" for line in lines]
-    return {"lines": lines, "barrier": barrier, "optimum": None, "proved": False, "alt": f"{'; '.join(said)}."}
+    return {
+        "lines": lines,
+        "barrier": barrier,
+        "optimum": None,
+        "proved": False,
+        "alt": f"{'; '.join(said)}.",
+    }
 
 
 def _number(value: float | None, form: str) -> str:

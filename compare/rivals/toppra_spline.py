@@ -34,7 +34,9 @@ def toppra_spline(problem: Problem, seconds: float) -> Answer:
     import toppra
 
     limits, path = problem.limits, spline_path(problem)
-    constraints = [toppra.constraint.JointVelocityConstraint(np.stack([-limits.velocity, limits.velocity], axis=1))]
+    constraints = [
+        toppra.constraint.JointVelocityConstraint(np.stack([-limits.velocity, limits.velocity], axis=1))
+    ]
     if limits.has_acceleration:
         bounds = np.stack([-limits.acceleration, limits.acceleration], axis=1)
         constraints.append(toppra.constraint.JointAccelerationConstraint(bounds))

@@ -22,9 +22,12 @@ _GIGA = 1_000_000_000
 
 
 def rivals(
-    *files: Annotated[str, Parameter(name="FILE", help="Problem files or shipped cases; all cases if left out.")],
+    *files: Annotated[
+        str, Parameter(name="FILE", help="Problem files or shipped cases; all cases if left out.")
+    ],
     rivals: Annotated[
-        tuple[str, ...] | None, listed(lambda: RIVALS, "The programs to run; all if left out.", "--rivals")
+        tuple[str, ...] | None,
+        listed(lambda: RIVALS, "The programs to run; all if left out.", "--rivals"),
     ] = None,
     random: Annotated[int | None, Parameter(metavar="COUNT", validator=positive)] = None,
     time_limit: Annotated[float, Parameter(metavar="SECONDS", validator=positive)] = 20.0,

@@ -18,7 +18,9 @@ from compare.rivals.shown import as_page, as_text
 from formulations import Conditions, Problem, Trajectory, free_form, free_form_bound
 
 TINY = Problem(
-    [[0.0, 0.0], [1.0, 0.3], [0.4, 1.0]], {"velocity": 1.0, "acceleration": 2.0, "jerk": 10.0}, name="tiny"
+    [[0.0, 0.0], [1.0, 0.3], [0.4, 1.0]],
+    {"velocity": 1.0, "acceleration": 2.0, "jerk": 10.0},
+    name="tiny",
 )
 BOUND = free_form_bound(TINY).seconds
 
@@ -138,6 +140,8 @@ def test_a_path_and_its_pace_are_composed_exactly() -> None:
 
 def test_kinks_and_lengths() -> None:
     t = np.linspace(0.0, 1.0, 101)
-    assert kinks(t, np.interp(t, [0.0, 0.3333, 0.71, 1.0], [0, 1, 1, 0])) == pytest.approx([0.3333, 0.71])
+    assert kinks(t, np.interp(t, [0.0, 0.3333, 0.71, 1.0], [0, 1, 1, 0])) == pytest.approx(
+        [0.3333, 0.71]
+    )
     line = Trajectory(np.array([2.0]), np.array([[[0.0, 1.5], [0.0, 2.0]]]))
     assert path_length(line) == pytest.approx(5.0)
