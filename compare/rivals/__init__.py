@@ -1,11 +1,11 @@
 """Other programs on the same tasks: each is one file with one function, and one entry of ``RIVALS``.
 
-A function takes a problem and the seconds that it may take, and returns an ``Answer``. It runs in a process of
+A function takes a problem and the seconds that it may take, and returns an ``RivalAnswer``. It runs in a process of
 its own, because some of these programs crash or do not come back (``isolated.py``). Its motion is judged by
 the independent check (``rows.py``). Loading this list loads none of the programs.
 """
 
-from compare.rivals.rival import Answer, Rival
+from compare.rivals.rival import Rival, RivalAnswer
 
 _ALL = (
     Rival(
@@ -79,4 +79,4 @@ _ALL = (
 
 RIVALS: dict[str, Rival] = {rival.key: rival for rival in _ALL}
 
-__all__ = ["RIVALS", "Answer", "Rival"]
+__all__ = ["RIVALS", "Rival", "RivalAnswer"]

@@ -5,7 +5,7 @@ from __future__ import annotations
 import numpy as np
 
 from compare.rivals.pieces import from_derivatives
-from compare.rivals.rival import Answer, moving_waypoints
+from compare.rivals.rival import RivalAnswer, moving_waypoints
 from formulations import Trajectory
 from formulations.problem.problem import Problem
 
@@ -14,7 +14,7 @@ _MARGIN = 1.0  # rad beyond the waypoints where there are no position limits
 _LONGEST = 100.0  # times what the velocity limits ask for
 
 
-def drake_gcs(problem: Problem, seconds: float) -> Answer:
+def drake_gcs(problem: Problem, seconds: float) -> RivalAnswer:
     """Find the fastest chain of Bezier curves by a graph of convex sets that is one path.
 
     Parameters
@@ -25,7 +25,7 @@ def drake_gcs(problem: Problem, seconds: float) -> Answer:
 
     Returns
     -------
-    Answer
+    RivalAnswer
     """
     from pydrake.geometry.optimization import GraphOfConvexSetsOptions, HPolyhedron, Point
     from pydrake.planning import GcsTrajectoryOptimization
@@ -64,7 +64,7 @@ def drake_gcs(problem: Problem, seconds: float) -> Answer:
     options.preprocessing = False
     found, result = program.SolvePath(start, end, options)
     if not result.is_success():
-        return Answer(None, note=f"no path found ({result.get_solution_result().name})")
+        return RivalAnswer(None, note=f"no path found ({result.get_solution_result().name})")
     motions = []
     for index in range(found.get_number_of_segments()):
         curve = found.segment(index)
@@ -78,4 +78,4 @@ def drake_gcs(problem: Problem, seconds: float) -> Answer:
         np.concatenate([m.durations for m in motions]),
         np.concatenate([m.coefficients for m in motions]),
     )
-    return Answer(motion, float(found.end_time() - found.start_time()))
+    return RivalAnswer(motion, float(found.end_time() - found.start_time()))

@@ -12,7 +12,7 @@ import numpy as np
 from scipy.optimize import minimize
 
 from compare.rivals.pieces import from_derivatives
-from compare.rivals.rival import Answer
+from compare.rivals.rival import RivalAnswer
 from formulations import REFERENCES, Trajectory
 from formulations.problem.arrays import Array
 from formulations.problem.problem import Problem
@@ -22,7 +22,7 @@ _PER_SEGMENT = 10  # control points
 _SHARE = 0.7  # of the time, after which no further spline is begun
 
 
-def drake_spline(problem: Problem, seconds: float) -> Answer:
+def drake_spline(problem: Problem, seconds: float) -> RivalAnswer:
     """Find the fastest spline, over shares of the time too.
 
     Parameters
@@ -33,7 +33,7 @@ def drake_spline(problem: Problem, seconds: float) -> Answer:
 
     Returns
     -------
-    Answer
+    RivalAnswer
     """
     over = time.perf_counter() + _SHARE * seconds
     stopping = REFERENCES["ruckig_stop_and_go"](problem).durations
@@ -61,7 +61,11 @@ def drake_spline(problem: Problem, seconds: float) -> Answer:
     except StopIteration:
         pass
     note = f"{tried} spline{'' if tried == 1 else 's'} of {_PER_SEGMENT * problem.n_segments} control points"
-    return Answer(best[0], best[0].seconds, note=note) if best else Answer(None, note=f"none of {note}")
+    return (
+        RivalAnswer(best[0], best[0].seconds, note=note)
+        if best
+        else RivalAnswer(None, note=f"none of {note}")
+    )
 
 
 def spline(problem: Problem, shares: Array) -> Trajectory | None:

@@ -5,14 +5,14 @@ from __future__ import annotations
 import numpy as np
 
 from compare.rivals.pieces import along, from_derivatives
-from compare.rivals.rival import Answer
+from compare.rivals.rival import RivalAnswer
 from compare.rivals.spline_path import as_pieces, spline_path
 from formulations.problem.problem import Problem
 
 _GRID = 200  # points per segment
 
 
-def drake_toppra(problem: Problem, seconds: float) -> Answer:
+def drake_toppra(problem: Problem, seconds: float) -> RivalAnswer:
     """Time the spline as fast as velocity and acceleration limits allow.
 
     Parameters
@@ -24,7 +24,7 @@ def drake_toppra(problem: Problem, seconds: float) -> Answer:
 
     Returns
     -------
-    Answer
+    RivalAnswer
     """
     from pydrake.multibody.optimization import Toppra
     from pydrake.multibody.plant import MultibodyPlant
@@ -52,10 +52,10 @@ def drake_toppra(problem: Problem, seconds: float) -> Answer:
         timing.AddJointAccelerationLimit(-limits.acceleration, limits.acceleration)
     found = timing.SolvePathParameterization()
     if found is None:
-        return Answer(None, note="no parameterisation found")
+        return RivalAnswer(None, note="no parameterisation found")
     breaks = np.array(found.get_segment_times())
     derivatives = [found.derivative(k) for k in range(4)]
     pace = from_derivatives(lambda t, k: derivatives[k].value(t), breaks - breaks[0], 3)
-    return Answer(
+    return RivalAnswer(
         along(as_pieces(path), pace), float(breaks[-1] - breaks[0]), note=f"{len(grid)} grid points"
     )

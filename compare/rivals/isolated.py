@@ -19,7 +19,7 @@ from pathlib import Path
 
 import numpy as np
 
-from compare.rivals.rival import Answer, Rival
+from compare.rivals.rival import Rival, RivalAnswer
 from formulations import Trajectory
 from formulations.problem.problem import Problem
 
@@ -29,7 +29,7 @@ _GLANCE = 0.02  # s between two looks at the process
 _LONGEST = 300  # characters of a last word
 
 
-class Ending(StrEnum):
+class RivalEnding(StrEnum):
     """How the process of a rival ended."""
 
     ANSWERED = "answered"
@@ -44,9 +44,9 @@ class Ending(StrEnum):
 class Ran:
     """One run: how it ended, why, the answer if there is one, and the seconds of the rival's function."""
 
-    ending: Ending
+    ending: RivalEnding
     reason: str = ""
-    answer: Answer | None = None
+    answer: RivalAnswer | None = None
     computation: float | None = None
 
 
@@ -90,9 +90,9 @@ def run_apart(
     Ran
     """
     if rival.refusal:
-        return Ran(Ending.NOT_RUN, rival.refusal)
+        return Ran(RivalEnding.NOT_RUN, rival.refusal)
     if not installed(rival):
-        return Ran(Ending.NOT_INSTALLED, f"pip install {rival.package}")
+        return Ran(RivalEnding.NOT_INSTALLED, f"pip install {rival.package}")
     with tempfile.TemporaryDirectory(prefix="timebound-") as name:
         folder = Path(name)
         task = (rival.target, rival.modules, problem, seconds, memory)
@@ -122,11 +122,13 @@ def _wait(
         if started is None and (folder / "started").exists():
             started = now
         if stop():
-            return Ran(Ending.INTERRUPTED, "Ctrl-C")
+            return Ran(RivalEnding.INTERRUPTED, "Ctrl-C")
         if started is None and now - begun > START:
-            return Ran(Ending.TIMED_OUT, f"took more than {START:g} s to load")
+            return Ran(RivalEnding.TIMED_OUT, f"took more than {START:g} s to load")
         if started is not None and now - started > seconds + _GRACE:
-            return Ran(Ending.TIMED_OUT, f"took more than {seconds:g} s", computation=now - started)
+            return Ran(
+                RivalEnding.TIMED_OUT, f"took more than {seconds:g} s", computation=now - started
+            )
         time.sleep(_GLANCE)
     return None
 
@@ -144,14 +146,14 @@ def _answer(code: int, folder: Path) -> Ran:
         lines = (folder / "words").read_text("utf-8", "replace").strip().splitlines()
         last = lines[-1][:_LONGEST] if lines and "Traceback" in "".join(lines) else ""
         how = f"ended by {signal.Signals(-code).name}" if code < 0 else f"exit code {code}"
-        return Ran(Ending.CRASHED, f"{how}: {last}" if last else how)
+        return Ran(RivalEnding.CRASHED, f"{how}: {last}" if last else how)
     try:
         said = json.loads((folder / "answer.json").read_text("utf-8"))
         motion = None
         if (folder / "answer.npz").exists():
             with np.load(folder / "answer.npz", allow_pickle=False) as pieces:
                 motion = Trajectory(pieces["durations"], pieces["coefficients"])
-        answer = Answer(motion, said["claimed"], said["bound"], said["note"])
-        return Ran(Ending.ANSWERED, said["note"], answer, said["computation"])
+        answer = RivalAnswer(motion, said["claimed"], said["bound"], said["note"])
+        return Ran(RivalEnding.ANSWERED, said["note"], answer, said["computation"])
     except (OSError, ValueError, KeyError) as error:
-        return Ran(Ending.CRASHED, f"its answer cannot be read: {error}"[:_LONGEST])
+        return Ran(RivalEnding.CRASHED, f"its answer cannot be read: {error}"[:_LONGEST])

@@ -11,7 +11,7 @@ from typing import Any
 
 import numpy as np
 
-from compare.rivals.rival import Answer, moving_waypoints
+from compare.rivals.rival import RivalAnswer, moving_waypoints
 from formulations.motion.interpolation import joined
 from formulations.problem.arrays import Array
 from formulations.problem.problem import Problem
@@ -20,7 +20,7 @@ _SAMPLES = 4001  # of a straight line, to find where its profile switches
 _CUT = 0.2  # of the shorter leg at a corner
 
 
-def justblend_stops(problem: Problem, seconds: float) -> Answer:
+def justblend_stops(problem: Problem, seconds: float) -> RivalAnswer:
     """Stop at each waypoint.
 
     Parameters
@@ -31,12 +31,12 @@ def justblend_stops(problem: Problem, seconds: float) -> Answer:
 
     Returns
     -------
-    Answer
+    RivalAnswer
     """
     return _generated(problem, blends=False)
 
 
-def justblend_blends(problem: Problem, seconds: float) -> Answer:
+def justblend_blends(problem: Problem, seconds: float) -> RivalAnswer:
     """Blend the corners: the motion does not pass the inner waypoints.
 
     Parameters
@@ -47,17 +47,17 @@ def justblend_blends(problem: Problem, seconds: float) -> Answer:
 
     Returns
     -------
-    Answer
+    RivalAnswer
     """
     return _generated(problem, blends=True)
 
 
-def _generated(problem: Problem, *, blends: bool) -> Answer:
+def _generated(problem: Problem, *, blends: bool) -> RivalAnswer:
     import justblend
 
     limits, points = problem.limits, moving_waypoints(problem)
     if not limits.has_acceleration:
-        return Answer(None, note="needs an acceleration limit")
+        return RivalAnswer(None, note="needs an acceleration limit")
     corners = justblend.CornerHandling
     legs = np.linalg.norm(np.diff(points, axis=0), axis=1)
     radii = _CUT * np.minimum(legs[:-1], legs[1:])
@@ -82,7 +82,7 @@ def _generated(problem: Problem, *, blends: bool) -> Answer:
     else:
         motion = joined(times, at.q, at.qd, interpolation="cubic")
     note = f"its own deviation {found.max_corner_deviation():.4g} rad" if blends else ""
-    return Answer(motion, float(found.duration()), note=note)
+    return RivalAnswer(motion, float(found.duration()), note=note)
 
 
 def _switches(found: Any, straight: Any, has_jerk: bool) -> Array:

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import numpy as np
 
-from compare.rivals.rival import Answer
+from compare.rivals.rival import RivalAnswer
 from formulations import REFERENCES, Trajectory
 from formulations.problem.problem import Problem
 
@@ -12,7 +12,7 @@ _UNLIMITED = 1e3  # rad, or of any limit that is missing: its program takes no i
 _SHARE = 0.8  # of the time
 
 
-def pyroboplan_cubic(problem: Problem, seconds: float) -> Answer:
+def pyroboplan_cubic(problem: Problem, seconds: float) -> RivalAnswer:
     """Find the fastest cubics between the waypoints.
 
     Parameters
@@ -23,7 +23,7 @@ def pyroboplan_cubic(problem: Problem, seconds: float) -> Answer:
 
     Returns
     -------
-    Answer
+    RivalAnswer
     """
     import pinocchio
     from pyroboplan.trajectory.trajectory_optimization import (
@@ -59,9 +59,9 @@ def pyroboplan_cubic(problem: Problem, seconds: float) -> Answer:
         list(problem.waypoints)
     )
     if found is None:
-        return Answer(None, note="its solver found no motion")
+        return RivalAnswer(None, note="its solver found no motion")
     durations = np.array([end - start for start, end in found.segment_times])
     coefficients = np.moveaxis(np.array(found.coeffs), 0, 1)[
         ..., ::-1
     ]  # highest power first, a list per joint
-    return Answer(Trajectory(durations, coefficients.copy()), float(durations.sum()))
+    return RivalAnswer(Trajectory(durations, coefficients.copy()), float(durations.sum()))

@@ -20,7 +20,7 @@ class Rival:
     name : str
         Its name in tables and pages.
     target : str
-        Its function ``(problem, seconds) -> Answer`` as ``module:function``; empty where it cannot be run.
+        Its function ``(problem, seconds) -> RivalAnswer`` as ``module:function``; empty where it cannot be run.
     package : str
         Name on the package index.
     modules : tuple of str
@@ -44,7 +44,7 @@ class Rival:
 
 
 @dataclass(frozen=True)
-class Answer:
+class RivalAnswer:
     """What a rival answers.
 
     Attributes

@@ -10,7 +10,7 @@ from typing import Any
 
 import numpy as np
 
-from compare.rivals.isolated import Ending, run_apart
+from compare.rivals.isolated import RivalEnding, run_apart
 from compare.rivals.rival import Rival
 from formulations import NoFeasibleMotion, Problem, Trajectory, plan
 from formulations.motion.judgement import judge
@@ -184,8 +184,12 @@ def run_rival(
     rival : Rival
     bound : float or None
         The proved lower bound of all motions [s].
-    seconds, memory, stop
-        As in ``rows``.
+    seconds : float
+        Time limit of its work [s].
+    memory : int
+        Bytes that it may hold.
+    stop : callable
+        Whether to end it now.
 
     Returns
     -------
@@ -205,7 +209,7 @@ def run_rival(
     ran = run_apart(rival, problem, seconds=seconds, memory=memory, stop=stop)
     answer = ran.answer
     called |= {"reason": ran.reason, "computation": ran.computation}
-    if ran.ending is not Ending.ANSWERED or answer is None:
+    if ran.ending is not RivalEnding.ANSWERED or answer is None:
         return RivalRow(**called, status=ran.ending.value)
     called |= {"claimed": answer.claimed, "own_bound": answer.bound}
     if answer.motion is None:

@@ -2,12 +2,12 @@
 
 from __future__ import annotations
 
-from compare.rivals.rival import Answer
+from compare.rivals.rival import RivalAnswer
 from formulations import REFERENCES
 from formulations.problem.problem import Problem
 
 
-def ruckig_stops(problem: Problem, seconds: float) -> Answer:
+def ruckig_stops(problem: Problem, seconds: float) -> RivalAnswer:
     """Plan each segment from rest to rest.
 
     Parameters
@@ -18,7 +18,7 @@ def ruckig_stops(problem: Problem, seconds: float) -> Answer:
 
     Returns
     -------
-    Answer
+    RivalAnswer
     """
     found = REFERENCES["ruckig_stop_and_go"](problem)
-    return Answer(found.trajectory, found.seconds, note=found.note)
+    return RivalAnswer(found.trajectory, found.seconds, note=found.note)

@@ -11,7 +11,7 @@ from typing import Any
 
 import numpy as np
 
-from compare.rivals.rival import Answer
+from compare.rivals.rival import RivalAnswer
 from formulations import REFERENCES, Trajectory
 from formulations.problem.problem import Problem
 from formulations.proofs.displacement import displacement_durations
@@ -22,7 +22,7 @@ _GAP = 1e-4  # between its bound and its motion, where it ends
 _SHARE = 0.8  # of the time
 
 
-def scip(problem: Problem, seconds: float) -> Answer:
+def scip(problem: Problem, seconds: float) -> RivalAnswer:
     """Minimise the sum of the segment times by spatial branch and bound.
 
     Parameters
@@ -34,13 +34,13 @@ def scip(problem: Problem, seconds: float) -> Answer:
 
     Returns
     -------
-    Answer
+    RivalAnswer
         With SCIP's own lower bound of this program, which is none of all motions.
     """
     import pyscipopt
 
     if not problem.limits.has_acceleration:
-        return Answer(None, note="needs an acceleration limit")
+        return RivalAnswer(None, note="needs an acceleration limit")
     stopping = REFERENCES["ruckig_stop_and_go"](problem).durations
     assert stopping is not None
     model = pyscipopt.Model()
@@ -58,8 +58,8 @@ def scip(problem: Problem, seconds: float) -> Answer:
     bound = model.getDualbound()
     bound = float(bound) if abs(bound) < model.infinity() else None
     if not model.getNSols():
-        return Answer(None, bound=bound, note=note)
-    return Answer(program.motion(), float(model.getObjVal()), bound, note)
+        return RivalAnswer(None, bound=bound, note=note)
+    return RivalAnswer(program.motion(), float(model.getObjVal()), bound, note)
 
 
 class _Program:

@@ -9,7 +9,7 @@ from __future__ import annotations
 import numpy as np
 
 from compare.rivals.pieces import along
-from compare.rivals.rival import Answer
+from compare.rivals.rival import RivalAnswer
 from compare.rivals.spline_path import as_pieces, spline_path
 from formulations import Trajectory
 from formulations.problem.problem import Problem
@@ -17,7 +17,7 @@ from formulations.problem.problem import Problem
 _GRID = 200  # points per segment
 
 
-def toppra_spline(problem: Problem, seconds: float) -> Answer:
+def toppra_spline(problem: Problem, seconds: float) -> RivalAnswer:
     """Time the spline as fast as velocity and acceleration limits allow.
 
     Parameters
@@ -29,7 +29,7 @@ def toppra_spline(problem: Problem, seconds: float) -> Answer:
 
     Returns
     -------
-    Answer
+    RivalAnswer
     """
     import toppra
 
@@ -46,10 +46,10 @@ def toppra_spline(problem: Problem, seconds: float) -> Answer:
     algorithm = toppra.algorithm.TOPPRA(constraints, given, gridpoints=grid, solver_wrapper="seidel")
     _, speeds, _ = algorithm.compute_parameterization(0.0, 0.0)
     if speeds is None or not np.isfinite(speeds).all():
-        return Answer(None, note="no parameterisation found")
+        return RivalAnswer(None, note="no parameterisation found")
     durations = 2.0 * np.diff(grid) / (speeds[1:] + speeds[:-1])
     if not np.isfinite(durations).all():
-        return Answer(None, note="the speed vanishes inside the path")
+        return RivalAnswer(None, note="the speed vanishes inside the path")
     series = np.stack([grid[:-1], speeds[:-1], np.diff(speeds) / (2.0 * durations)], axis=1)
     motion = along(as_pieces(path), Trajectory(durations, series[:, None, :]))
-    return Answer(motion, float(durations.sum()), note=f"{len(grid)} grid points")
+    return RivalAnswer(motion, float(durations.sum()), note=f"{len(grid)} grid points")

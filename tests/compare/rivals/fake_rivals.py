@@ -3,7 +3,7 @@
 import os
 import time
 
-from compare.rivals.rival import Answer
+from compare.rivals.rival import RivalAnswer
 from formulations import free_form
 
 
@@ -20,14 +20,14 @@ def hang(problem, seconds):
 
 
 def lie(problem, seconds):
-    return Answer(free_form(problem).trajectory, 0.5)
+    return RivalAnswer(free_form(problem).trajectory, 0.5)
 
 
 def hasten(problem, seconds):
     motion = free_form(problem).trajectory.stretched(0.9)
-    return Answer(motion, motion.seconds)
+    return RivalAnswer(motion, motion.seconds)
 
 
 def honest(problem, seconds):
     motion = free_form(problem).trajectory.stretched(1.5)
-    return Answer(motion, motion.seconds)
+    return RivalAnswer(motion, motion.seconds)
