@@ -1,7 +1,7 @@
 """Other programs on the same tasks: each is one file with one function, and one entry of ``RIVALS``.
 
-A function takes a problem and the seconds that it may take, and returns an ``RivalAnswer``. It runs in a process of
-its own, because some of these programs crash or do not come back (``isolated.py``). Its motion is judged by
+A function takes a problem and the seconds that it may take, and returns a ``RivalAnswer``. It runs in a process
+of its own, because some of these programs crash or do not come back (``isolated.py``). Its motion is judged by
 the independent check (``rows.py``). Loading this list loads none of the programs.
 """
 
