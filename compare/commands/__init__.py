@@ -168,8 +168,8 @@ _ALL = (
     ),
     Command(
         "rivals", "compare.commands.studies.rivals:rivals", STUDIES,
-        "Set the fastest motion beside Drake and pyroboplan.",
-        "timebound rivals --rivals drake --points 20",
+        "Run other programs on the same tasks: times, broken limits, distance from the bound.",
+        "timebound rivals sr4c --rivals drake_spline,scip --time-limit 30 --page rivals.html",
     ),
 )  # fmt: skip
 

@@ -1,4 +1,4 @@
-"""``timebound rivals``: the fastest motion beside other planners."""
+"""``timebound rivals``: the fastest motion beside other programs, on the same tasks."""
 
 from __future__ import annotations
 
@@ -7,50 +7,68 @@ from typing import Annotated
 
 from cyclopts import Parameter
 
-from compare.commands import DONE, FAILED
-from compare.commands.options import Json, Resume, listed, positive
-from compare.commands.studies import alone
-from compare.screen import show
-from compare.studies import rivals as study
+from compare.commands import DONE, INTERRUPTED
+from compare.commands.options import Json, listed, positive, writable
+from compare.files import write_text
+from compare.interrupts import ctrl_c_stops
+from compare.rivals import RIVALS
+from compare.rivals import rows as running
+from compare.rivals.shown import as_json, as_page, as_text
+from compare.screen import show, stages
+from compare.studies.free_form_study import random_problems
+from formulations import CASES, Problem, load
 
-Count = Annotated[int, Parameter(validator=positive)]
+_GIGA = 1_000_000_000
 
 
 def rivals(
-    *,
+    *files: Annotated[
+        str, Parameter(name="FILE", help="Problem files or shipped cases; all cases if left out.")
+    ],
     rivals: Annotated[
         tuple[str, ...] | None,
-        listed(lambda: study.PACKAGES, "drake, pyroboplan; those installed if left out.", "--rivals"),
+        listed(lambda: RIVALS, "The programs to run; all if left out.", "--rivals"),
     ] = None,
-    count: Count = 4,
-    points: Count = 14,
-    evaluations: Count = 60,
-    out: Annotated[str | None, Parameter(metavar="DIR")] = None,
-    resume: Resume = False,
+    random: Annotated[int | None, Parameter(metavar="COUNT", validator=positive)] = None,
+    time_limit: Annotated[float, Parameter(metavar="SECONDS", validator=positive)] = 20.0,
+    memory: Annotated[float, Parameter(metavar="GB", validator=positive)] = 4.0,
+    page: Annotated[str | None, Parameter(metavar="FILE", validator=writable)] = None,
     json: Json = None,
 ) -> int:
-    """Set the fastest motion beside the trajectory optimisation of Drake and pyroboplan.
+    """Run other programs on the same tasks, and judge every motion by the same check.
 
-    Every motion is judged by the same check. One problem is solved at a time, as times are measured.
+    Each runs in a process of its own; one that is missing, crashes or hangs has a row that says so. Ctrl-C
+    ends the run and keeps the rows that are finished.
 
     Parameters
     ----------
-    count
-        Random problems beside the cases.
-    points
-        Control points per segment for Drake.
-    evaluations
-        Splines that Drake may try per problem.
-    out
-        Folder for the rows; nothing is written if left out.
+    random
+        So many random problems of two real arms too.
+    time_limit
+        Seconds of each program on each task.
+    memory
+        GB that each program may hold (on Linux).
+    page
+        Write a page with charts to this file.
     """
-    wanted = list(rivals or study.PACKAGES)
-    present = study.installed(wanted)
-    for name in wanted:
-        if name not in present:
-            print(f"{name}: not installed (pip install {name})", file=sys.stderr)
-    if not present:
-        return FAILED
-    found = alone(study.STUDY, study.calls(present, count, points, evaluations), out=out, resume=resume)
-    show(found.as_text(), found.to_json(), json)
-    return DONE
+    tasks: list[Problem] = [load(file) for file in files]
+    if not files and random is None:
+        tasks = [load(name) for name in CASES]
+    tasks += random_problems(random or 0, 0)
+    found: list[running.RivalRow] = []
+    with ctrl_c_stops() as stop, stages("rivals") as stage:
+        for row in running.rows(
+            tasks,
+            [RIVALS[key] for key in rivals or RIVALS],
+            seconds=time_limit,
+            memory=int(memory * _GIGA),
+            stop=stop,
+            stage=stage,
+        ):
+            found.append(row)
+            print(f"{row.problem}: {row.rival}: {row.status}", file=sys.stderr, flush=True)
+        interrupted = stop()
+    show(as_text(found), as_json(found, time_limit), json)
+    if page is not None:
+        write_text(page, as_page(found, time_limit))
+    return INTERRUPTED if interrupted else DONE

@@ -126,7 +126,7 @@ BAD = {
     "speed": (["--case", "bagging"], "--case: the papers' 14x14 matrix is 3-5-3's, bagging is 4-3-4"),
     "condition_gaps": (["--count", "0"], "--count"),
     "free_form_study": (["--solver", "x"], '--solver: Invalid value "x"'),
-    "rivals": (["--rivals", "pilz"], "--rivals: 'pilz' is not known (known: drake, pyroboplan)"),
+    "rivals": (["--rivals", "pilz"], "--rivals: 'pilz' is not known (known: drake_spline"),
 }
 
 
