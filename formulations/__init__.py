@@ -17,6 +17,7 @@ from formulations.problem.conditions import Conditions
 from formulations.problem.errors import InputError, NoFeasibleMotion, NotFoundInTime, UnsupportedProblem
 from formulations.problem.problem import Limits, Problem
 from formulations.problem.toml_file.problem_file import CASES, load, parse
+from formulations.problem.toml_file.problem_text import save
 from formulations.proofs.each_joint import each_joint_alone
 from formulations.proofs.every_motion.bound import FreeFormBound, free_form_bound
 from formulations.proofs.family import FamilyBound, family_bound, proved_optimum
@@ -63,6 +64,7 @@ __all__ = [
     "read_motion",
     "read_points",
     "robot_of",
+    "save",
     "waypoints_of",
     "write_motion",
 ]

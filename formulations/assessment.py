@@ -101,6 +101,7 @@ class Assessment:
             "jumps": [self._jump(jump) for jump in found.jumps],
             "not_at_rest": [self._jump(jump) for jump in found.not_at_rest],
             "missed_total": found.missed_total,
+            "unkept": list(found.unkept),
             "tolerance": found.tolerance,
             "interpolation": found.interpolation,
             "passage_times": found.motion.passage_times.tolist(),
@@ -164,8 +165,8 @@ def assess(
     tolerance : float, default 1e-4 [rad]
         By how much a waypoint may be missed in each joint.
     conditions : Conditions, optional
-        What was asked of the motion beyond the problem. The bound is that of the motions that keep it, and
-        says how fast they could be where a total time is asked for.
+        What was asked of the motion; the conditions of the problem if left out. The bound is that of the
+        motions that keep it, and says how fast they could be where a total time is asked for.
     bound : bool, default True
         Whether to prove a lower bound.
     time_limit : float, default 20 [s]
@@ -188,7 +189,7 @@ def assess(
     >>> found.judgement.feasible, found.gap < 1e-6
     (True, True)
     """
-    asked = conditions or Conditions()
+    asked = problem.conditions if conditions is None else conditions
     judged = judge(problem, motion, interpolation=interpolation, tolerance=tolerance, conditions=asked)
     if not bound:
         return beside(problem, judged, None)

@@ -249,6 +249,8 @@ class Climb:
             ended = "it was interrupted" if self.deadline.interrupted else "the time limit was over"
             return Outcome.failed(f"{ended} before it began")
         try:
+            if not rung.knows_conditions:
+                self.problem.require_plain(f"unsupported: {rung.key}")
             if rung.takes is Takes.PROBLEM:
                 return rung.find(self.problem)
             if rung.takes is Takes.CLIMB:
@@ -265,7 +267,7 @@ class Climb:
         """Check the motion of an upper bound, whoever made it."""
         if rung.kind is not RungKind.UPPER or outcome.trajectory is None:
             return outcome
-        verdict = check(self.problem, outcome.trajectory)
+        verdict = check(self.problem, outcome.trajectory, conditions=self.problem.conditions)
         if verdict.feasible:
             return outcome
         return Outcome.failed(f"did not pass the check: {verdict.faults[0]}")

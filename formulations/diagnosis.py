@@ -15,6 +15,7 @@ from formulations.deadlines import NEVER, Deadline
 from formulations.motion.verdict import QUANTITIES
 from formulations.optima.free_form import FreeForm, SearchStatus, free_form
 from formulations.problem.arrays import Array
+from formulations.problem.conditions import Conditions
 from formulations.problem.joint_words import joint_label
 from formulations.problem.problem import Limits, Problem
 
@@ -135,7 +136,8 @@ def diagnose(
     ----------
     problem : Problem
     found : FreeForm
-        The motion of this problem, without conditions.
+        The motion of this problem. What is saved is that under the same conditions; with times asked for,
+        the shares do not add up to the whole time.
     more : float, default 0.1
         By how much a limit is raised, relative.
     top : int, default 4
@@ -178,8 +180,8 @@ def diagnose(
     savings = []
     for o, j in zip(*np.unravel_index(worst, per_limit.shape), strict=True):
         if per_limit[o, j] > _LEAST * found.seconds and not deadline.over:
-            raised = _raised(problem, int(o), int(j), 1.0 + more)
-            faster = free_form(raised, time_limit=deadline.left, stop=deadline.stop)
+            raised, asked = _raised(problem, found.conditions, int(o), int(j), 1.0 + more)
+            faster = free_form(raised, conditions=asked, time_limit=deadline.left, stop=deadline.stop)
             if faster.status in (SearchStatus.TIME_LIMIT, SearchStatus.INTERRUPTED):
                 break
             savings.append(Saving(int(j), QUANTITIES[int(o) + 1], more, found.seconds - faster.seconds))
@@ -223,9 +225,24 @@ def _held(problem: Problem, found: FreeForm) -> Array:
     return held
 
 
-def _raised(problem: Problem, order: int, joint: int, factor: float) -> Problem:
-    derivatives = problem.limits.derivatives.copy()
-    derivatives[order, joint] *= factor
-    velocity, acceleration, jerk = derivatives
-    limits = Limits.of(velocity, acceleration, jerk, problem.limits.position, dof=problem.dof)
-    return replace(problem, limits=limits)
+def _raised(
+    problem: Problem, asked: Conditions, order: int, joint: int, factor: float
+) -> tuple[Problem, Conditions]:
+    """The problem and its conditions with one limit raised, also where segments have limits of their own."""
+    quantity = QUANTITIES[order + 1]
+    segments = {
+        k: _raised_limits(own, quantity, joint, factor) for k, own in asked.segment_limits.items()
+    }
+    asked = replace(asked, segment_limits=segments)
+    limits = _raised_limits(problem.limits, quantity, joint, factor)
+    return replace(problem, limits=limits, conditions=asked), asked
+
+
+def _raised_limits(limits: Limits, quantity: str, joint: int, factor: float) -> Limits:
+    changed = {}
+    for name in (quantity, f"{quantity}_interval"):
+        values = getattr(limits, name, None)
+        if values is not None:
+            changed[name] = values.copy()
+            changed[name][joint] *= factor
+    return replace(limits, **changed)

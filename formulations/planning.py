@@ -137,8 +137,9 @@ def plan(
     problem : Problem
         Waypoints and limits.
     conditions : Conditions, optional
-        Stops, passage times, a total time, velocities at the ends, limits of single segments. The bound is
-        that of the motions that keep them; with a total time it says how fast they could be.
+        Zones, times, stops, waits, states at the ends, limits of single segments; those of the problem if
+        left out. The bound is that of the motions that keep them; with a total time it says how fast they
+        could be.
     gap : float, default 1e-3
         Relative gap to be reached.
     bound : bool, default True
@@ -174,7 +175,7 @@ def plan(
     if not (np.isfinite(gap) and gap > 0.0):
         raise InputError(f"gap: {gap:g} is not positive")
     say = progress or (lambda line: None)
-    asked = conditions or Conditions()
+    asked = problem.conditions if conditions is None else conditions
     deadline = Deadline(time_limit, stop)
     found = free_form(
         problem,

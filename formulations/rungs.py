@@ -65,8 +65,7 @@ def ladder(
     gap : float
         Relative gap aimed at between ``free_form`` and ``free_form_lower``.
     rungs : collection of str, optional
-        Keys of ``RUNGS``; those that they need are computed too. By default ``usual_rungs``: all, and of
-        large problems all but those of the family.
+        Keys of ``RUNGS``; those that they need are computed too. ``usual_rungs`` if left out.
     starts : int, optional
         Number of starts of the family's NLP. By default it starts once, and a proof shows that no
         durations are faster; where the proof is not short, it starts many times.
@@ -162,10 +161,11 @@ def without(keys: Collection[str], left_out: Collection[str]) -> tuple[str, ...]
 
 
 def _free_form_lower(climb: Climb) -> Outcome:
-    if not climb.problem.moving_joints:
+    if not climb.problem.moving_joints and climb.problem.conditions.none:
         return Outcome.ok(0.0, note="nothing moves")
     found = free_form_bound(
         climb.problem,
+        conditions=climb.problem.conditions.without_total(climb.problem),
         gap=climb.gap,
         upper=climb.seconds("free_form"),
         time_limit=climb.deadline.within(_TIME_LIMIT).left,
@@ -187,10 +187,11 @@ def _free_form_lower(climb: Climb) -> Outcome:
 
 
 def _free_form(climb: Climb) -> Outcome:
-    if not climb.problem.moving_joints:
+    if not climb.problem.moving_joints and climb.problem.conditions.none:
         return Outcome.ok(0.0, note="nothing moves")
     found = free_form(
         climb.problem,
+        conditions=climb.problem.conditions,
         tolerance=climb.gap,
         time_limit=_SHARE * climb.deadline.left,
         stop=climb.deadline.stop,
@@ -293,6 +294,7 @@ RUNGS: dict[str, Rung] = {
             takes=Takes.CLIMB,
             certified=True,
             after=("displacement", "ruckig_end_to_end", "free_form"),
+            knows_conditions=True,
         ),
         Rung(
             key="free_form",
@@ -303,6 +305,7 @@ RUNGS: dict[str, Rung] = {
             takes=Takes.CLIMB,
             certified=True,
             after=("ruckig_stop_and_go", "family"),
+            knows_conditions=True,
         ),
         RUCKIG_STOP_AND_GO,
         Rung(

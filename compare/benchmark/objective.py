@@ -68,6 +68,9 @@ class Objective:
     problem: Problem
     stretch: bool
 
+    def __post_init__(self) -> None:
+        self.problem.require_plain("the objective of a swarm")
+
     def __call__(self, durations: Array) -> Array:
         """Return the fitness of a population.
 

@@ -52,6 +52,7 @@ def opening(found: Assessment) -> list[str]:
     ]
     if judged.missed_total is not None:
         lines.append(f"it takes {judged.seconds:.9g} s; asked for were {judged.missed_total:.9g} s")
+    lines += judged.unkept
     return lines
 
 

@@ -8,6 +8,7 @@ from typing import Any
 
 import numpy as np
 
+from compare.report.asked_words import sentences
 from compare.report.charts.case_motions import judged
 from compare.report.charts.ladder import ladder_chart
 from compare.report.charts.motions import ShownMotion, arm_chart, motions_chart
@@ -15,7 +16,7 @@ from compare.report.frame import CHARTS, environment
 from compare.report.judged import FoundTable, fault_tables, holding, opening
 from compare.report.view_answers import answers_of, headline, what_is_wrong
 from compare.report.viewed import Viewed
-from formulations import RUNGS, Conditions, Problem
+from formulations import RUNGS, Problem
 from formulations.motion.verdict import QUANTITIES
 from formulations.problem.joint_words import factors, shown_unit
 
@@ -57,7 +58,7 @@ def view_page(viewed: Viewed) -> str:
         "opening": [] if given is None else opening(given),
         "faults": [] if given is None else fault_tables(given),
         "held": None if given is None else holding(given),
-        "conditions": _conditions(viewed.conditions),
+        "conditions": sentences(viewed.problem, viewed.conditions),
         "limits": limits_table(problem),
         "waypoints": waypoints_table(problem),
         "remarks": viewed.remarks,
@@ -90,15 +91,18 @@ def limits_table(problem: Problem) -> FoundTable:
         low, high = problem.limits.position[j] / scales[j]
         unlimited = np.isinf(low) and np.isinf(high)
         cells = ["none" if unlimited else f"{low:.6g} to {high:.6g}"]
-        cells += [
-            "none" if np.isinf(limit) else f"{limit / scales[j]:.6g}"
-            for limit in problem.limits.derivatives[:, j]
-        ]
+        cells += [_limit(*interval) for interval in problem.limits.ranges[:, j] / scales[j]]
         rows.append([_label(problem, j)])
         for order, cell in enumerate(cells):
             alone = len(set(units[order])) == 1 or cell == "none"
             rows[-1].append(cell if alone else f"{cell} {units[order][j]}")
     return FoundTable(["joint", *heads], rows, (1, 2, 3, 4))
+
+
+def _limit(low: float, high: float) -> str:
+    if np.isinf(low) and np.isinf(high):
+        return "none"
+    return f"{high:.6g}" if low == -high else f"{low:.6g} to {high:.6g}"
 
 
 def waypoints_table(problem: Problem) -> FoundTable:
@@ -162,14 +166,3 @@ def _more_lines(viewed: Viewed) -> Sequence[dict[str, Any]]:
     return [
         {"name": name, "seconds": seconds, "kind": kind, "first": True} for name, seconds, kind in lines
     ]
-
-
-def _conditions(asked: Conditions) -> list[str]:
-    """What is asked for beyond the problem, a sentence each; waypoints count from 1."""
-    said = [f"It stands still at waypoint {stop + 1}." for stop in sorted(asked.stops)]
-    said += [f"It passes waypoint {k + 1} at {time:g} s." for k, time in sorted(asked.passage.items())]
-    said += [] if asked.total is None else [f"It takes {asked.total:g} s."]
-    for where, velocity in (("start", asked.start_velocity), ("end", asked.end_velocity)):
-        if velocity is not None:
-            said.append(f"Its joints have given velocities at the {where}.")
-    return said

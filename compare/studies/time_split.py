@@ -160,6 +160,7 @@ def run_and_split(
     reasons : dict
         Why there are none, by coding.
     """
+    problem.require_plain("split")
     climbed = ladder_record(ladder(problem, progress=progress))
     bound, proof = bound_of(climbed)
     splits, reasons = {}, {}

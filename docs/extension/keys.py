@@ -5,13 +5,27 @@ from __future__ import annotations
 from docutils import nodes
 from sphinx.util.docutils import SphinxDirective
 
-from formulations.problem.toml_file.keys import LIMIT_KEYS, POSE_KEYS, PROBLEM_KEYS
+from formulations.problem.toml_file.keys import (
+    CONDITION_KEYS,
+    LIMIT_KEYS,
+    POSE_KEYS,
+    PROBLEM_KEYS,
+    SEGMENT_KEYS,
+    WAYPOINT_KEYS,
+)
 
-_TABLES = {"problem": PROBLEM_KEYS, "limits": LIMIT_KEYS, "pose": POSE_KEYS}
+_TABLES = {
+    "problem": PROBLEM_KEYS,
+    "limits": LIMIT_KEYS,
+    "pose": POSE_KEYS,
+    "conditions": CONDITION_KEYS,
+    "waypoint": WAYPOINT_KEYS,
+    "segment": SEGMENT_KEYS,
+}
 
 
 class KeysDirective(SphinxDirective):
-    """A table of keys: ``problem``, ``limits`` or ``pose``."""
+    """A table of keys, by a name of ``_TABLES``."""
 
     required_arguments = 1
 

@@ -72,7 +72,7 @@ class Family:
         Parameters
         ----------
         problem : Problem
-            Its number of segments decides.
+            Its number of segments decides, and whether it has conditions: splines know none.
 
         Raises
         ------
@@ -82,6 +82,7 @@ class Family:
         reason = self.refusal(problem.n_segments)
         if reason is not None:
             raise UnsupportedProblem(f"family: {reason}")
+        problem.require_plain(f"family {self.name}")
 
     def pieces(self, problem: Problem, durations: Array) -> tuple[Array, Array]:
         """Compute the splines of a population.

@@ -7,7 +7,7 @@ searched for, and every value is an exact extreme in continuous time.
 
 from __future__ import annotations
 
-from dataclasses import dataclass, replace
+from dataclasses import dataclass
 
 import numpy as np
 
@@ -16,6 +16,7 @@ from formulations.motion.passages import passages
 from formulations.motion.peaks import QUANTITIES, Peak, peaks_of_joints
 from formulations.motion.smoothness import TOLERANCE, Jump, jumps, motion_at
 from formulations.motion.trajectory import Trajectory
+from formulations.motion.unkept import TIME_TOLERANCE, from_arrival, moving_at, unkept
 from formulations.problem.arrays import Array
 from formulations.problem.conditions import Conditions
 from formulations.problem.demands import Demands
@@ -23,8 +24,6 @@ from formulations.problem.errors import InputError
 from formulations.problem.problem import Problem
 
 WAYPOINT_TOLERANCE = 1e-4  # rad (or m) by which a waypoint may be missed: files and tables are rounded
-TIME_TOLERANCE = 1e-5  # s by which the whole motion may take another time than asked for
-STILL = 1e-3  # of the velocity and acceleration limits: less counts as standing still at a stop
 _MOST = 1e-6  # relative excess that counts as rounding, however short the pieces are
 _STEPS = 400  # roundings of a position between the points of a file and a derivative of its pieces
 _DEGREES = {2: "linear", 4: "cubic", 6: "quintic"}
@@ -75,6 +74,8 @@ class Judgement:
         differs from them.
     missed : tuple of Miss
         Waypoints that are not passed, in their order; at the time asked for, where there is one.
+    unkept : tuple of str
+        What else was asked for and is not kept, a line each: windows, times of segments, waits, cycles.
     conditions : Conditions
         What was asked for beyond the problem.
     """
@@ -88,6 +89,7 @@ class Judgement:
     jumps: tuple[Jump, ...]
     not_at_rest: tuple[Jump, ...]
     missed: tuple[Miss, ...]
+    unkept: tuple[str, ...]
     conditions: Conditions
 
     @property
@@ -98,7 +100,7 @@ class Judgement:
     @property
     def feasible(self) -> bool:
         """Whether nothing is wrong."""
-        faults = (self.violations, self.jumps, self.not_at_rest, self.missed)
+        faults = (self.violations, self.jumps, self.not_at_rest, self.missed, self.unkept)
         return not any(faults) and self.missed_total is None
 
     @property
@@ -110,13 +112,19 @@ class Judgement:
 
     @property
     def is_paced(self) -> bool:
-        """Whether times or velocities are asked for, so that no uniform stretch is allowed."""
+        """Whether times or states at the ends are asked for, so that no uniform stretch is allowed."""
         asked = self.conditions
-        ends = (asked.start_velocity, asked.end_velocity)
+        ends = (
+            asked.start_velocity,
+            asked.end_velocity,
+            asked.start_acceleration,
+            asked.end_acceleration,
+        )
+        times = (asked.passage, asked.windows, asked.segment_times, asked.waits)
         return (
-            bool(asked.passage)
+            any(times)
             or asked.total is not None
-            or any(np.any(v) for v in ends if v is not None)
+            or any(np.any(v) for v in ends if v is not None and not isinstance(v, str))
         )
 
     @property
@@ -131,7 +139,8 @@ class Judgement:
     def is_mended_by_stretch(self) -> bool:
         """Whether a uniform stretch mends all that is wrong."""
         positions = any(peak.quantity == "position" for peak in self.violations)
-        return not (positions or self.jumps or self.not_at_rest or self.missed or self.is_paced)
+        faults = (self.jumps, self.not_at_rest, self.missed, self.unkept)
+        return not (positions or any(faults) or self.is_paced)
 
     @property
     def stretch(self) -> float:
@@ -162,8 +171,8 @@ def judge(
     tolerance : float, default 1e-4
         By how much a waypoint may be missed in each joint [rad].
     conditions : Conditions, optional
-        What is asked for beyond the problem. A waypoint with a passage time has to be within the
-        tolerance at that time, and the whole motion may differ from a total time by 1e-5 s. At a stop,
+        What is asked for; the conditions of the problem if left out. A waypoint with a passage time has to
+        be within the tolerance at that time, one with a window at some time within it, and the whole motion may differ from a total time by 1e-5 s. At a stop,
         less than a thousandth of the velocity and acceleration limits counts as standing still.
 
     Returns
@@ -217,8 +226,14 @@ def judge(
         trajectory = motion
     if trajectory.dof != problem.dof:
         raise InputError(f"motion: {trajectory.dof} joints, the problem has {problem.dof}")
-    passed = passages(trajectory, problem.waypoints, asked.passage)
+    windows = {
+        k: (float(early), float(late))
+        for k, (early, late) in enumerate(demands.passages)
+        if early > 0.0 or np.isfinite(late)
+    }
+    passed = passages(trajectory, problem.waypoints, windows, demands.waypoints)
     trajectory = Trajectory(trajectory.durations, trajectory.coefficients, passed.times)
+    trajectory = from_arrival(demands, trajectory, tolerance)
     peaks = sorted(
         peaks_of_joints(demands, trajectory),
         key=lambda peak: (peak.factor > 1.0, peak.urgency),
@@ -234,8 +249,8 @@ def judge(
     ends = np.array([0.0, trajectory.seconds])
     states = np.stack([demands.end_velocity, demands.end_acceleration])
     moving = motion_at(problem, trajectory, ends, states, smooth)
-    for stop in sorted(asked.stops - {0, problem.n_segments}):
-        moving += _moving_at(problem, trajectory, stop, tolerance, stop in asked.passage)
+    for stop in sorted((asked.stops | set(asked.waits)) - {0, problem.n_segments}):
+        moving += moving_at(demands, trajectory, stop, tolerance)
     return Judgement(
         motion=trajectory,
         interpolation=method,
@@ -250,6 +265,7 @@ def judge(
         jumps=tuple(jumps(problem, trajectory, smooth)),
         not_at_rest=tuple(moving),
         missed=tuple(_missed(passed.misses, passed.times, tolerance)),
+        unkept=tuple(unkept(demands, trajectory, tolerance, smooth)),
         conditions=asked,
     )
 
@@ -279,25 +295,6 @@ def in_order_of(names: tuple[str, ...], points: MotionPoints) -> MotionPoints:
             f"motion: joints {', '.join(points.names)}, the problem has {', '.join(names)}"
         )
     return points.in_order(names)
-
-
-def _moving_at(
-    problem: Problem, trajectory: Trajectory, stop: int, tolerance: float, at_once: bool
-) -> list[Jump]:
-    """What moves where the motion is slowest while it is at a waypoint; at_once: its time is asked for."""
-    times = trajectory.passage_times[[stop]]
-    if not at_once:
-        before, after = trajectory.passage_times[[stop - 1, stop + 1]]
-        meet = trajectory.breaks[(trajectory.breaks > before) & (trajectory.breaks < after)]
-        off = np.abs(trajectory.at(meet) - problem.waypoints[stop]).max(axis=1)
-        times = np.append(times, meet[off <= tolerance])
-    limits = problem.limits
-    speed = np.abs(trajectory.at(times, 1)) / limits.velocity
-    gained = np.abs(trajectory.at(times, 2)) / limits.acceleration * np.isfinite(limits.jerk)
-    slowest = times[[int(np.maximum(speed, gained).max(axis=1).argmin())]]
-    still = np.full(problem.dof, STILL)
-    found = motion_at(problem, trajectory, slowest, relative=[still] * 3)
-    return [replace(jump, waypoint=stop) for jump in found]
 
 
 def _missed(misses: Array, times: Array, tolerance: float) -> list[Miss]:

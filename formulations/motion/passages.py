@@ -32,7 +32,7 @@ class Passages:
     times : Array, shape (n_waypoints,) [s]
         Not decreasing, from the start to the end of the motion.
     misses : Array, shape (n_waypoints, dof) [rad]
-        Position less waypoint at these times.
+        Position less the nearest place of the waypoint's box at these times.
     """
 
     times: Array
@@ -40,7 +40,10 @@ class Passages:
 
 
 def passages(
-    trajectory: Trajectory, waypoints: Array, fixed: Mapping[int, float] | None = None
+    trajectory: Trajectory,
+    waypoints: Array,
+    windows: Mapping[int, tuple[float, float]] | None = None,
+    boxes: Array | None = None,
 ) -> Passages:
     """Find the times at which a motion passes waypoints in their order.
 
@@ -50,22 +53,28 @@ def passages(
         The motion.
     waypoints : Array, shape (n_waypoints, dof) [rad]
         Positions to pass, at least two; the first at the start and the last at the end.
-    fixed : mapping of int to float, optional
-        Times at which inner waypoints have to be passed [s]: the misses are those at these times.
+    windows : mapping of int to (float, float), optional
+        Earliest and latest time at which inner waypoints have to be passed [s]: the misses are those within.
+    boxes : Array, shape (n_waypoints, dof, 2) [rad], optional
+        Least and greatest position that passes each waypoint; the waypoints themselves if left out.
 
     Returns
     -------
     Passages
         Times and misses; a waypoint that is not passed gets the time of its nearest approach.
     """
-    candidates = [np.array([0.0]), *_approaches(trajectory, waypoints[1:-1])]
+    boxes = np.stack([waypoints, waypoints], axis=-1) if boxes is None else boxes
+    candidates = [np.array([0.0]), *_approaches(trajectory, boxes[1:-1])]
     candidates.append(np.array([trajectory.seconds]))
-    for waypoint, time in (fixed or {}).items():
+    for waypoint, (early, late) in (windows or {}).items():
         if 0 < waypoint < len(waypoints) - 1:
-            candidates[waypoint] = np.array([min(time, trajectory.seconds)])
+            ends = np.clip([early, late], 0.0, trajectory.seconds)
+            times = candidates[waypoint]
+            inside = times[(times > ends[0]) & (times < ends[1])]
+            candidates[waypoint] = np.unique(np.concatenate([ends, inside]))
     distances = [
-        np.abs(trajectory.at(times) - waypoint).max(axis=1)
-        for times, waypoint in zip(candidates, waypoints, strict=True)
+        np.abs(_off(trajectory.at(times), box)).max(axis=1)
+        for times, box in zip(candidates, boxes, strict=True)
     ]
     # least sum of distances up to each candidate, and the candidate before it
     cost, before = distances[0], []
@@ -81,26 +90,31 @@ def passages(
     for previous in reversed(before):
         chosen.append(int(previous[chosen[-1]]))
     times = np.array([candidates[k][i] for k, i in enumerate(reversed(chosen))])
-    return Passages(times, trajectory.at(times) - waypoints)
+    return Passages(
+        times, np.stack([_off(at, box) for at, box in zip(trajectory.at(times), boxes, strict=True)])
+    )
 
 
-def _approaches(trajectory: Trajectory, waypoints: Array) -> list[Array]:
-    """Times of the nearest local minima of the distance to each waypoint (n, dof) [s]."""
-    if not len(waypoints):
+def _off(positions: Array, box: Array) -> Array:
+    """Positions (..., dof) less the nearest place of a box (dof, 2)."""
+    return np.asarray(positions - np.clip(positions, box[:, 0], box[:, 1]))
+
+
+def _approaches(trajectory: Trajectory, boxes: Array) -> list[Array]:
+    """Times of the nearest local minima of the distance to each box (n, dof, 2) [s]."""
+    if not len(boxes):
         return []
     count = int(np.clip(_ALL_SAMPLES // len(trajectory.durations), 2, _SAMPLES))
     steps = np.linspace(0.0, 1.0, count, endpoint=False)
     times = (trajectory.breaks[:-1, None] + trajectory.durations[:, None] * steps).ravel()
     times = np.append(times, trajectory.seconds)
     positions = trajectory.at(times)
-    return [_approaches_of_one(trajectory, waypoint, times, positions) for waypoint in waypoints]
+    return [_approaches_of_one(trajectory, box, times, positions) for box in boxes]
 
 
-def _approaches_of_one(
-    trajectory: Trajectory, waypoint: Array, times: Array, positions: Array
-) -> Array:
-    """Those of one waypoint, both ends included; positions (n_times, dof) at times are known."""
-    distance = np.asarray(np.square(positions - waypoint).sum(axis=1))
+def _approaches_of_one(trajectory: Trajectory, box: Array, times: Array, positions: Array) -> Array:
+    """Those of one box (dof, 2), both ends included; positions (n_times, dof) at times are known."""
+    distance = np.asarray(np.square(_off(positions, box)).sum(axis=1))
     padded = np.concatenate([[np.inf], distance, [np.inf]])
     lowest = (distance <= padded[:-2]) & (distance <= padded[2:])
     # of a standstill, the first and the last moment are enough
@@ -111,7 +125,7 @@ def _approaches_of_one(
     low, high = times[np.maximum(found - 1, 0)], times[np.minimum(found + 1, len(times) - 1)]
 
     def away(at: Array) -> Array:
-        return np.asarray(np.square(trajectory.at(at) - waypoint).sum(axis=1))
+        return np.asarray(np.square(_off(trajectory.at(at), box)).sum(axis=1))
 
     for _ in range(_SECTIONS):
         left, right = low + (high - low) * (1.0 - _GOLDEN), low + (high - low) * _GOLDEN
@@ -119,7 +133,7 @@ def _approaches_of_one(
         low, high = np.where(is_left, low, left), np.where(is_left, right, high)
     at = 0.5 * (low + high)
     for _ in range(_NEWTON):  # of the derivative of half the squared distance
-        error, speed = trajectory.at(at) - waypoint, trajectory.at(at, 1)
+        error, speed = _off(trajectory.at(at), box), trajectory.at(at, 1)
         slope = (speed * error).sum(axis=1)
         curvature = np.square(speed).sum(axis=1) + (trajectory.at(at, 2) * error).sum(axis=1)
         with np.errstate(divide="ignore", invalid="ignore"):

@@ -76,8 +76,8 @@ def _limits(problem: Problem, joint: int, order: int, extent: float) -> list[flo
     if order == 0:
         ends = problem.position_bounds[joint].tolist()
         return [end for end in ends if np.isfinite(end) and abs(end) < 2.0 * extent]
-    limit = float(problem.limits.derivatives[order - 1, joint])
-    return [-limit, limit] if np.isfinite(limit) else []
+    ends = problem.limits.ranges[order - 1, joint].tolist()
+    return [end for end in ends if np.isfinite(end)]
 
 
 def samples(motion: Trajectory, joint: int, order: int) -> tuple[Array, Array]:

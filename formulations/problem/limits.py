@@ -148,6 +148,11 @@ class Limits:
         )
         return velocity, acceleration
 
+    @property
+    def ranges(self) -> Array:
+        """Least and greatest velocity, acceleration and jerk, (3, dof, 2)."""
+        return np.stack([*self.intervals, np.stack([-self.jerk, self.jerk], axis=1)])
+
     def of_joint(self, joint: int) -> Limits:
         """Return the limits of one joint alone.
 

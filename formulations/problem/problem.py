@@ -12,6 +12,7 @@ from numpy.typing import ArrayLike
 from formulations.problem.arrays import Array
 from formulations.problem.conditions import Conditions
 from formulations.problem.errors import InputError, UnsupportedProblem
+from formulations.problem.hints import hints_of
 from formulations.problem.joint_words import (
     factors,
     joint_label,
@@ -31,8 +32,6 @@ LARGEST_WAYPOINT = 1e6  # rad or m; beyond, ten digits after the point are no lo
 # rad per (1 + largest |waypoint|) by which a motion may leave the position limits. It covers rounding, most of
 # all that of the optimisers. The check, the swarms' objective, the optimum and the bound share this number.
 POSITION_SLACK = 1e-10
-
-_TURNS = 2.0  # turns of a joint from which on degrees may have been read as radians
 
 
 @dataclass(frozen=True, init=False)
@@ -248,20 +247,8 @@ class Problem:
 
     @property
     def hints(self) -> tuple[str, ...]:
-        """What is legal but was probably not meant: joints that turn so far as if degrees were radians."""
-        if self.display_unit != "rad":
-            return ()
-        rotary = np.array(self.units) == "rad"
-        steps = np.diff(self.waypoints, axis=0, prepend=self.waypoints[:1])
-        found = np.maximum(np.abs(self.waypoints), np.abs(steps)) * rotary / (2.0 * np.pi)
-        if not (found > _TURNS).any():
-            return ()
-        row, joint = np.unravel_index(int(found.argmax()), found.shape)
-        return (
-            f"waypoints: row {row + 1}, {self.joint_name(int(joint))}: "
-            f"{self.waypoints[row, joint]:.6g} rad takes {found[row, joint]:.3g} turns; are these degrees? "
-            'then say unit="deg"',
-        )
+        """What is legal but was probably not meant, a line each (``problem.hints``)."""
+        return hints_of(self)
 
     @property
     def dof(self) -> int:

@@ -32,7 +32,13 @@ def each_joint_alone(
     -------
     tuple of (FamilyOptimum or None), length dof
         None for a joint that does not move.
+
+    Raises
+    ------
+    UnsupportedProblem
+        The problem has conditions, which splines do not know.
     """
+    problem.require_plain("each joint alone")
     deadline = Deadline(time_limit, stop)
     return tuple(
         proved_optimum(problem.joint(j), starts=starts, seed=seed, time_limit=deadline.left, stop=stop)[

@@ -10,8 +10,12 @@ from __future__ import annotations
 import math
 from fractions import Fraction
 
+import numpy as np
+
+from formulations.problem.conditions import Conditions
+from formulations.problem.demands import Demands
 from formulations.problem.problem import Problem
-from formulations.proofs.displacement import rounded_down
+from formulations.proofs.displacement import distance_between, rounded_down
 
 
 def rest_to_rest(distance: float, velocity: float, acceleration: float, jerk: float) -> float:
@@ -73,23 +77,31 @@ def rest_to_rest_bound(distance: Fraction, velocity: float, acceleration: float,
     return seconds
 
 
-def end_to_end_bound(problem: Problem) -> float:
+def end_to_end_bound(problem: Problem, conditions: Conditions | None = None) -> float:
     """Proved lower bound on every motion: rest to rest from the first waypoint to the last.
 
     Parameters
     ----------
     problem : Problem
-        Its inner waypoints are ignored, which makes the motions more.
+        Its inner waypoints are ignored, which makes the motions more, and so are all conditions but zones and
+        the states at the ends. Where an end is not at rest, displacement over top speed bounds the motions.
+    conditions : Conditions, optional
+        In place of the problem's own.
 
     Returns
     -------
     float
         Bound of the slowest joint, rounded down [s].
     """
-    first, last = problem.waypoints[0].tolist(), problem.waypoints[-1].tolist()
+    demands = Demands.of(problem, conditions)
+    asked, boxes = demands.conditions, demands.waypoints[[0, -1]]
+    # a limit that is lower in one direction, or on one segment, is taken as if it were nowhere lower
+    limits = asked.derivatives(problem).max(axis=1)
+    ends = np.stack([asked.end_velocities(problem), asked.end_accelerations(problem)])
+    limits[1:, ends.any(axis=(0, 1))] = np.inf  # NaN, which stands for a free state, counts as true
     return max(
-        rest_to_rest_bound(abs(Fraction(end) - Fraction(start)), *map(float, limits))
-        for start, end, limits in zip(first, last, problem.limits.derivatives.T, strict=True)
+        rest_to_rest_bound(distance_between(*boxes[:, j]), *map(float, limits[:, j]))
+        for j in range(problem.dof)
     )
 
 

@@ -41,6 +41,7 @@ def copp_on(problem: Problem, path: Trajectory) -> Outcome:
     Outcome
         Not applicable without ``copp-py`` or without a jerk limit; its note states the grid error.
     """
+    problem.require_plain("COPP")
     try:
         import copp_py
     except ImportError:

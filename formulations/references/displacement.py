@@ -13,16 +13,17 @@ def displacement(problem: Problem) -> Outcome:
     Parameters
     ----------
     problem : Problem
-        Its waypoints and velocity limits.
+        Its waypoints, velocity limits and conditions.
 
     Returns
     -------
     Outcome
         With the least duration of each segment.
     """
+    asked = problem.conditions.without_total(problem)  # how fast it could be
     return Outcome.ok(
-        displacement_bound(problem),
-        durations=displacement_durations(problem),
+        displacement_bound(problem, asked),
+        durations=displacement_durations(problem, asked),
         note="displacement over top speed",
     )
 
@@ -34,4 +35,5 @@ DISPLACEMENT = Rung(
     meaning="no motion is faster: displacement at top speed",
     find=displacement,
     certified=True,
+    knows_conditions=True,
 )

@@ -145,6 +145,8 @@ class Rung:
         Keys of the rungs whose results ``find`` looks at, where they are asked for.
     needs : tuple of str
         Those among them that it cannot do without: they are climbed with it.
+    knows_conditions : bool
+        Whether the number holds under the conditions of a problem; a rung that knows none says so.
     """
 
     key: str
@@ -156,3 +158,4 @@ class Rung:
     certified: bool = False
     after: tuple[str, ...] = ()
     needs: tuple[str, ...] = ()
+    knows_conditions: bool = False

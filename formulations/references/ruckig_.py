@@ -60,6 +60,7 @@ def ruckig_stop_and_go(problem: Problem) -> Outcome:
 
 
 def _through(problem: Problem, points: Array) -> Outcome:
+    problem.require_plain("Ruckig")
     if not np.isfinite(problem.limits.acceleration).all():
         return Outcome.not_applicable("Ruckig needs an acceleration limit on every joint")
     durations: list[float] = []

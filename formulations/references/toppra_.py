@@ -42,6 +42,7 @@ def toppra_on(problem: Problem, path: Trajectory) -> Outcome:
     Outcome
         Its note states the grid and the grid error.
     """
+    problem.require_plain("TOPP-RA")
     if not problem.moving_joints:
         return Outcome.ok(0.0, note="nothing moves")
     results: list[tuple[int, float]] = []
@@ -77,6 +78,7 @@ def toppra_cubic(problem: Problem) -> Outcome:
     Outcome
         Its note states the grid and the grid error.
     """
+    problem.require_plain("TOPP-RA")
     if not problem.moving_joints:
         return Outcome.ok(0.0, note="nothing moves")
     times = displacement_durations(problem)

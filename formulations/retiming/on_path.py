@@ -42,11 +42,10 @@ def by_toppra(path: Path, limits: Limits) -> Trajectory | str:
     Pham & Pham 2018, "A new approach to time-optimal path parameterization based on reachability
     analysis", IEEE Transactions on Robotics 34, pp. 645-659.
     """
-    constraints = [toppra.constraint.JointVelocityConstraint(_symmetric(limits.velocity))]
+    velocity, acceleration = limits.intervals
+    constraints = [toppra.constraint.JointVelocityConstraint(velocity)]
     if limits.has_acceleration:
-        constraints.append(
-            toppra.constraint.JointAccelerationConstraint(_symmetric(limits.acceleration))
-        )
+        constraints.append(toppra.constraint.JointAccelerationConstraint(acceleration))
     grid = np.linspace(0.0, path.lengths[-1], max(400, min(4 * len(path.points), 4000)))
     geometry = _Spline(path)
     algorithm = toppra.algorithm.TOPPRA(
@@ -87,6 +86,8 @@ def by_copp(path: Path, limits: Limits) -> Trajectory | str:
         return "copp-py is not installed: pip install 'timebound[copp]'"
     if not limits.has_jerk:
         return "no jerk limit: TOPP-RA is the optimum on this path"
+    if not limits.symmetric:
+        return "COPP: knows no limits that differ between the two directions"
     ends = Problem.of(path.points[[0, -1]], Limits.of(*limits.derivatives, dof=path.points.shape[1]))
     start = slow_motion(path, ends)
     moving = np.flatnonzero(np.ptp(path.points, axis=0) > 0.0).tolist()
@@ -157,7 +158,3 @@ class _Spline(toppra.interpolator.AbstractGeometricPath):  # type: ignore[misc] 
     @property
     def waypoints(self) -> None:
         """None, because this is a path and no list of points."""
-
-
-def _symmetric(limit: Array) -> Array:
-    return np.stack([-limit, limit], axis=1)

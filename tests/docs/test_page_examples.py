@@ -179,8 +179,9 @@ def test_the_table_and_the_picture_of_the_readme_are_what_is_computed() -> None:
 
 
 def test_the_problem_files_of_the_reference_are_problems() -> None:
-    first, files, second = blocks(DOCS / "reference" / "problem_file.md", "toml")
+    first, files, asked, second = blocks(DOCS / "reference" / "problem_file.md", "toml")
     assert parse(first[1]).dof == 2
+    assert len(parse(first[1] + asked[1]).conditions.asked) == 6
     assert set(tomllib.loads(files[1])) <= set(PROBLEM_KEYS)
     pytest.importorskip("eaik")
     assert parse(second[1]).waypoints.shape == (2, 6)

@@ -19,7 +19,14 @@ from compare.__main__ import application
 from compare.citations.bibliography import entries
 from compare.commands import COMMANDS
 from formulations import CASES, FAMILIES, RUNGS
-from formulations.problem.toml_file.keys import LIMIT_KEYS, POSE_KEYS, PROBLEM_KEYS
+from formulations.problem.toml_file.keys import (
+    CONDITION_KEYS,
+    LIMIT_KEYS,
+    POSE_KEYS,
+    PROBLEM_KEYS,
+    SEGMENT_KEYS,
+    WAYPOINT_KEYS,
+)
 from metaheuristics import ALGORITHMS
 
 pytestmark = pytest.mark.long
@@ -140,6 +147,7 @@ def test_every_notebook_is_shown_with_its_pictures_and_its_answer(site: Path) ->
 def test_every_key_of_the_files_is_explained(site: Path) -> None:
     words = set(shown(site, "reference/problem_file").split())
     assert {*PROBLEM_KEYS, *LIMIT_KEYS, *POSE_KEYS} <= words
+    assert {*CONDITION_KEYS, *WAYPOINT_KEYS, *SEGMENT_KEYS} <= words
     words = set(shown(site, "paper_file").split())
     assert {"family", "rows", "[[table]]", "[[claim]]", "rule", "[settings.swarm]", "alpha"} <= words
 

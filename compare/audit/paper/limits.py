@@ -116,6 +116,7 @@ def with_limits(problem: Problem, derivatives: Array, position: Array | None = N
     -------
     Problem
     """
+    problem.require_plain("the audit")
     velocity, acceleration, jerk = derivatives
     velocity = np.where(np.isfinite(velocity), velocity, UNREACHED)
     bounds = problem.limits.position if position is None else position

@@ -10,9 +10,13 @@ import numpy as np
 
 from formulations import Limits, Problem
 from formulations.problem.arrays import Array
+from formulations.problem.toml_file.condition_table import conditions_of_table
+from formulations.problem.toml_file.plain_conditions import asked_as_json, with_infinities
 
 _TEXTS = ("name", "family", "title", "source", "display_unit")
 _LIMITS = ("velocity", "acceleration", "jerk", "position")
+_INTERVALS = ("velocity_interval", "acceleration_interval")
+_UNLIMITED = np.array([-np.inf, np.inf])
 
 
 def plain_problem(problem: Problem) -> dict[str, Any]:
@@ -25,14 +29,20 @@ def plain_problem(problem: Problem) -> dict[str, Any]:
     Returns
     -------
     dict
-        Ready for strict JSON; angles in rad, None for a limit that there is not.
+        Ready for strict JSON; angles in rad, None for a limit that there is not. Conditions stand in it as in
+        a problem file.
     """
+    intervals = {key: getattr(problem.limits, key) for key in _INTERVALS}
     return {
         **{key: getattr(problem, key) for key in _TEXTS},
         "names": list(problem.names),
         "units": list(problem.units),
         "waypoints": problem.waypoints.tolist(),
-        "limits": {key: _listed(getattr(problem.limits, key)) for key in _LIMITS},
+        "limits": {
+            **{key: _listed(getattr(problem.limits, key)) for key in _LIMITS},
+            **{key: _listed(value) for key, value in intervals.items() if value is not None},
+        },
+        **asked_as_json(problem),
     }
 
 
@@ -55,16 +65,18 @@ def problem_of(data: dict[str, Any]) -> Problem:
     """
     try:
         limits = data["limits"]
-        position = np.array(limits["position"], dtype=np.float64)  # None becomes NaN
-        unlimited = np.array([-np.inf, np.inf])
         arrays = {key: _filled(limits[key], np.inf) for key in _LIMITS[:3]}
+        intervals = {key: _filled(limits[key], _UNLIMITED) for key in _INTERVALS if key in limits}
+        whole = Limits(
+            **arrays, position=_filled(limits["position"], _UNLIMITED), units=tuple(data["units"]),
+            **intervals,
+        )  # fmt: skip
+        waypoints = np.array(data["waypoints"], dtype=np.float64)
+        asked = with_infinities(data.get("conditions", {}))
         return Problem(
-            np.array(data["waypoints"], dtype=np.float64),
-            Limits(
-                **arrays,
-                position=np.where(np.isnan(position), unlimited, position),
-                units=tuple(data["units"]),
-            ),
+            waypoints,
+            whole,
+            conditions=conditions_of_table(asked, "rad", data["names"], whole, len(waypoints)),
             names=data["names"],
             units=data["units"],
             **{key: data[key] for key in _TEXTS},
@@ -95,6 +107,6 @@ def _listed(values: Array) -> Any:
     return found.tolist()
 
 
-def _filled(values: list[float | None], value: float) -> Array:
-    found = np.array(values, dtype=np.float64)
+def _filled(values: list[Any], value: float | Array) -> Array:
+    found = np.array(values, dtype=np.float64)  # None becomes NaN
     return np.where(np.isnan(found), value, found)

@@ -22,6 +22,11 @@ from compare.benchmark.coordinates import seen_in
 from compare.benchmark.objective import Objective
 from formulations import Problem
 from formulations.climb import versions
+from formulations.problem.toml_file.plain_conditions import (
+    table_of_limits,
+    tables_of_conditions,
+    without_infinities,
+)
 from metaheuristics import Algorithm, algorithm, minimise
 from metaheuristics.entry import TIME_LIMIT
 
@@ -256,7 +261,7 @@ def _imported(module: str, path: Path) -> Iterator[str]:
 
 
 def problem_digest(problem: Problem) -> str:
-    """Return a short hash of what defines a problem: waypoints, limits and family.
+    """Return a short hash of what defines a problem: waypoints, limits, conditions and family.
 
     Parameters
     ----------
@@ -270,6 +275,9 @@ def problem_digest(problem: Problem) -> str:
     limits = problem.limits
     parts = (problem.waypoints, limits.derivatives, limits.position)
     data = b"".join(np.ascontiguousarray(part).tobytes() for part in parts)
+    if not problem.plain:
+        asked = [tables_of_conditions(problem), table_of_limits(limits)]
+        data += json.dumps(without_infinities(asked), sort_keys=True, allow_nan=False).encode()
     return hashlib.sha256(data + problem.family.encode()).hexdigest()[:12]
 
 

@@ -28,7 +28,7 @@ def chosen(names: Iterable[str]) -> list[Instance]:
     Raises
     ------
     InputError
-        If a file cannot be read, or two instances have one name.
+        If a file cannot be read, its problem has conditions, or two instances have one name.
     """
     found: dict[str, Instance] = {}
     for text in names:
@@ -45,6 +45,7 @@ def _shipped(case: str) -> Instance:
 
 def _own(path: str) -> Instance:
     problem = load(path)
+    problem.require_plain(f"--cases: {path}: the comparison of swarms")
     name = problem.name
     if name in CASES:
         raise InputError(f"--cases: {path}: name: {name!r} is that of a shipped case; give it another")

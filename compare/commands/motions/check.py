@@ -7,7 +7,7 @@ from typing import Annotated
 from cyclopts import Parameter
 
 from compare.commands import BROKEN, DONE
-from compare.commands.motions.condition_options import ConditionOptions, conditions_of
+from compare.commands.motions.condition_options import ConditionOptions
 from compare.commands.motions.problem_options import (
     FileOrRobot,
     OwnRobot,
@@ -21,6 +21,7 @@ from formulations import InputError
 from formulations.assessment import Assessment, assess
 from formulations.motion.files.motion_file import read_points
 from formulations.motion.judgement import WAYPOINT_TOLERANCE
+from formulations.problem.toml_file.plain_conditions import asked_as_json
 
 
 def check_motion(
@@ -63,8 +64,7 @@ def check_motion(
         file, motion = None, file
     if motion is None:
         raise InputError("MOTION: missing: a problem FILE and MOTION are needed, or MOTION and --robot")
-    problem = problem_of(file, own)
-    conditions = conditions_of(asked, problem)
+    problem = problem_of(file, own, asked)
     points = read_points(motion)
     with stages(problem.name) as stage:
         stage("extremes, waypoints, bound")
@@ -73,10 +73,9 @@ def check_motion(
             points,
             interpolation=interpolation,
             tolerance=tolerance,
-            conditions=conditions,
             bound=bound,
         )
-    show(as_text(motion, found), found.to_json(), json)
+    show(as_text(motion, found), {**found.to_json(), **asked_as_json(problem)}, json)
     return DONE if found.judgement.feasible else BROKEN
 
 

@@ -73,7 +73,8 @@ def climb(
     -------
     Ladder
     Diagnosis or None
-        What limits the fastest motion; None where there is none, or where the time was over.
+        What limits the fastest motion; None where there is none, where the time was over, or where the
+        motion asked for is the smoothest one.
     """
     answer = ladder(
         problem,
@@ -84,7 +85,7 @@ def climb(
         finished=lambda result: print(_line(problem.name, result), file=sys.stderr, flush=True),
         **options,
     )
-    if answer.free_form is None or deadline.over:
+    if answer.free_form is None or deadline.over or problem.conditions.total is not None:
         return answer, None
     stage("what limits the fastest motion")
     return answer, diagnose(problem, answer.free_form, deadline=deadline)

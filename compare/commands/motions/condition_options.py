@@ -1,24 +1,45 @@
-"""The options that ask more of a motion than its problem does: stops, times, velocities at the ends.
+"""The options that ask more of a motion than its problem does: zones, times, stops, states at the ends.
 
-A command has the parameter ``asked: ConditionOptions = None`` and calls ``conditions_of(asked, problem)``.
+A command has the parameter ``asked: ConditionOptions = None`` and calls ``problem_of(file, own, asked)``.
 """
 
 from __future__ import annotations
 
-from dataclasses import dataclass
-from math import isfinite
-from typing import TYPE_CHECKING, Annotated
+from collections.abc import Callable
+from dataclasses import dataclass, replace
+from math import inf, isfinite
+from typing import TYPE_CHECKING, Annotated, Any, ClassVar, TypeVar
 
 from cyclopts import Group, Parameter
 
 if TYPE_CHECKING:
     from formulations import Conditions, Problem
     from formulations.problem.arrays import Array
+    from formulations.problem.conditions import EndState
 
 _CONDITIONS = Group(
-    "Conditions", help="Waypoints count from 0, the start; the last one is the end.", sort_key=11
+    "Conditions",
+    help="Waypoints count from 0, the start; the last one is the end. These options lie over the conditions "
+    "of FILE: what they do not name stays as it says.",
+    sort_key=11,
 )
-Velocities = Annotated[str | None, Parameter(metavar="V,V,..", allow_leading_hyphen=True)]
+_ZONE = (
+    "Pass all inner waypoints, or waypoint K, at a distance of up to R in each joint, in the unit of the "
+    "file; R,R,.. gives each joint its own. Several times if needed."
+)
+Read = TypeVar("Read")
+
+
+def _several(metavar: str, text: str, *, name: str | tuple[str, ...] | None = None) -> Parameter:
+    """An option that may be given several times, each time with one value."""
+    return Parameter(
+        name=name, metavar=metavar, n_tokens=1, consume_multiple=False, show_default=False, help=text
+    )
+
+
+def _state(text: str) -> Parameter:
+    """An option for the state at an end."""
+    return Parameter(metavar="V,V,..", allow_leading_hyphen=True, help=text)
 
 
 @Parameter(name="*", group=_CONDITIONS)
@@ -26,53 +47,75 @@ Velocities = Annotated[str | None, Parameter(metavar="V,V,..", allow_leading_hyp
 class AskedConditions:
     """The options as they were typed."""
 
+    zones: ClassVar[str] = "--zone"  # what the option for zones is called in messages
     stop: Annotated[
-        tuple[int, ...],
-        Parameter(
-            metavar="K",
-            n_tokens=1,
-            consume_multiple=False,
-            show_default=False,
-            help="Stand still at waypoint K; several times if needed.",
-        ),
+        tuple[int, ...], _several("K", "Stand still at waypoint K; several times if needed.")
     ] = ()
     passage: Annotated[
         tuple[str, ...],
-        Parameter(
-            name="--pass",
-            metavar="K=T",
-            n_tokens=1,
-            consume_multiple=False,
-            show_default=False,
-            help="Pass waypoint K at T seconds; several times if needed.",
-        ),
+        _several("K=T", "Pass waypoint K at T seconds; several times if needed.", name="--pass"),
     ] = ()
     total: Annotated[
         float | None,
         Parameter(metavar="T", help="The motion takes T seconds, and is as smooth as it can be."),
     ] = None
-    start_velocity: Annotated[
-        Velocities,
+    zone: Annotated[tuple[str, ...], _several("R or K=R", _ZONE)] = ()
+    window: Annotated[
+        tuple[str, ...],
+        _several("K=A:B", "Pass waypoint K between A and B seconds; without B, not before A."),
+    ] = ()
+    least: Annotated[
+        tuple[str, ...],
+        _several("K=T", "Take at least T seconds from waypoint K to the next one."),
+    ] = ()
+    wait: Annotated[
+        tuple[str, ...],
+        _several("K=S", "Stand still for S seconds at waypoint K, after arriving there."),
+    ] = ()
+    cyclic: Annotated[
+        bool,
         Parameter(
-            help="Velocity at the start, a number per joint, in the unit of the file (deg/s where it has "
-            "degrees)."
+            negative="",
+            show_default=False,
+            help="One turn of a cycle: end with the velocity and the acceleration of the start.",
+        ),
+    ] = False
+    start_velocity: Annotated[
+        str | None,
+        _state(
+            "Velocity at the start, a number per joint, in the unit of the file (deg/s where it has "
+            "degrees), or free."
         ),
     ] = None
-    end_velocity: Annotated[Velocities, Parameter(help="Velocity at the end, in the same way.")] = None
+    end_velocity: Annotated[str | None, _state("Velocity at the end, in the same way.")] = None
+    start_acceleration: Annotated[
+        str | None, _state("Acceleration at the start, a number per joint, or free.")
+    ] = None
+    end_acceleration: Annotated[str | None, _state("Acceleration at the end, in the same way.")] = None
+
+
+@Parameter(name="*", group=_CONDITIONS)
+@dataclass(frozen=True)
+class ZonedByTolerance(AskedConditions):
+    """The same where ``--tolerance`` has no other meaning: it gives zones."""
+
+    zones: ClassVar[str] = "--tolerance"
+    zone: Annotated[tuple[str, ...], _several("R or K=R", _ZONE, name=("--tolerance", "--zone"))] = ()
 
 
 ConditionOptions = Annotated[AskedConditions | None, Parameter(name="*")]
+PlanConditionOptions = Annotated[ZonedByTolerance | None, Parameter(name="*")]
 
 
 def conditions_of(asked: AskedConditions | None, problem: Problem) -> Conditions:
-    """Read what is asked for.
+    """Lay what is asked for by options over the conditions of a problem.
 
     Parameters
     ----------
     asked : AskedConditions or None
         The options; None where none was given.
     problem : Problem
-        Whose joints move, and in whose unit velocities are typed.
+        Whose joints move, in whose unit values are typed, and whose conditions stay where no option is given.
 
     Returns
     -------
@@ -83,49 +126,94 @@ def conditions_of(asked: AskedConditions | None, problem: Problem) -> Conditions
     InputError
         In one line that names the option and what was typed, or the condition that does not fit.
     """
-    from formulations import Conditions
-
-    given = asked or AskedConditions()
-    found = Conditions(
-        passage=_passages(given.passage),
-        total=given.total,
-        stops=frozenset(given.stop),
-        start_velocity=_velocity("--start-velocity", given.start_velocity, problem),
-        end_velocity=_velocity("--end-velocity", given.end_velocity, problem),
+    own = problem.conditions
+    if asked is None or asked == type(asked)():
+        return own
+    states: dict[str, Any] = {}
+    for key in ("start_velocity", "end_velocity", "start_acceleration", "end_acceleration"):
+        if (text := getattr(asked, key)) is not None:
+            states[key] = _end_state(f"--{key.replace('_', '-')}", text, problem)
+    least = _numbered("--least", asked.least, "K=T, such as 0=1.5", float)
+    found = replace(
+        own,
+        tolerance={**own.tolerance, **_zones(asked, problem)},
+        passage={**own.passage, **_numbered("--pass", asked.passage, "K=T, such as 2=1.5", float)},
+        windows={**own.windows, **_numbered("--window", asked.window, "K=A:B, such as 2=1:3", _window)},
+        segment_times={
+            **own.segment_times,
+            **{k: (time, own.segment_times.get(k, (0.0, inf))[1]) for k, time in least.items()},
+        },
+        waits={**own.waits, **_numbered("--wait", asked.wait, "K=S, such as 2=0.5", float)},
+        stops=own.stops | set(asked.stop),
+        total=own.total if asked.total is None else asked.total,
+        cyclic=own.cyclic or asked.cyclic,
+        **states,
     )
     found.validate(problem)
     return found
 
 
-def _passages(texts: tuple[str, ...]) -> dict[int, float]:
-    """Passage times [s] by waypoint."""
+def _numbered(
+    option: str, texts: tuple[str, ...], form: str, read: Callable[[str], Read]
+) -> dict[int, Read]:
+    """Values by waypoint or segment, of texts of the form K=VALUE."""
     from formulations import InputError
 
-    passages: dict[int, float] = {}
+    found: dict[int, Read] = {}
     for text in texts:
-        waypoint, separator, time = text.partition("=")
+        number, separator, value = text.partition("=")
         try:
-            passages[int(waypoint)] = float(time)
+            index, one = int(number), read(value)
         except ValueError:
             separator = ""
         if not separator:
-            raise InputError(f"--pass: {text!r} is not of the form K=T, such as 2=1.5")
-    return passages
+            raise InputError(f"{option}: {text!r} is not of the form {form}")
+        if index in found:
+            raise InputError(f"{option}: {text!r}: {index} is given twice")
+        found[index] = one
+    return found
 
 
-def _velocity(key: str, text: str | None, problem: Problem) -> Array | None:
-    """Velocities of the joints, (dof,) [rad/s], from numbers in the unit of the file."""
+def _window(text: str) -> tuple[float, float]:
+    early, separator, late = text.partition(":")
+    if not separator:
+        raise ValueError(text)
+    return float(early), float(late) if late.strip() else inf
+
+
+def _zones(asked: AskedConditions, problem: Problem) -> dict[int, Array]:
+    """Zones (dof,) [rad or m] by waypoint."""
+    from formulations import InputError
+
+    found: dict[int, Array] = {}
+    option, texts = asked.zones, asked.zone
+    for_all = [text for text in texts if "=" not in text]
+    if len(for_all) > 1:
+        raise InputError(f"{option}: {for_all[1]!r}: all inner waypoints are given twice")
+    for text in for_all:
+        found = dict.fromkeys(range(1, problem.n_segments), _amounts(option, text, problem))
+    single = [text for text in texts if "=" in text]
+    typed: dict[int, str] = _numbered(option, tuple(single), "K=R, such as 2=0.01", str)
+    return {**found, **{k: _amounts(option, text, problem) for k, text in typed.items()}}
+
+
+def _end_state(option: str, text: str, problem: Problem) -> EndState:
+    return "free" if text.strip() == "free" else _amounts(option, text, problem, alone=False)
+
+
+def _amounts(option: str, text: str, problem: Problem, *, alone: bool = True) -> Array:
+    """Values of the joints, (dof,) [rad or m], from numbers in the unit of the file; alone: one is for all."""
     import numpy as np
 
     from formulations import InputError
     from formulations.problem.joint_words import factors
 
-    if text is None:
-        return None
     try:
-        values = [float(part) for part in text.split(",")]
+        values: list[Any] = [float(part) for part in text.split(",")]
     except ValueError:
-        raise InputError(f"{key}: {text!r} is not a list of numbers") from None
+        raise InputError(f"{option}: {text!r} is not a list of numbers") from None
+    if alone and len(values) == 1:
+        values *= problem.dof
     if len(values) != problem.dof or not all(isfinite(value) for value in values):
-        raise InputError(f"{key}: expected {problem.dof} finite numbers, got {text!r}")
+        raise InputError(f"{option}: expected {problem.dof} finite numbers, got {text!r}")
     return np.array(values) * factors(problem.units, problem.display_unit)

@@ -5,7 +5,7 @@ from __future__ import annotations
 import sys
 
 from compare.commands import DONE, FAILED, INTERRUPTED
-from compare.commands.motions.condition_options import ConditionOptions, conditions_of
+from compare.commands.motions.condition_options import PlanConditionOptions
 from compare.commands.motions.problem_options import FileOrRobot, OwnRobotOptions, problem_of
 from compare.commands.options import Export, Gap, Json, Rate, TimeLimit
 from compare.interrupts import ctrl_c_stops
@@ -23,6 +23,7 @@ from formulations.motion.verdict import QUANTITIES
 from formulations.optima.at_rate.export import check_export, export_motion
 from formulations.optima.free_form import SearchStatus
 from formulations.problem.joint_words import shown_unit
+from formulations.problem.toml_file.plain_conditions import asked_as_json
 from formulations.proofs.status import BoundStatus
 
 _CUT_SHORT = {
@@ -36,7 +37,7 @@ def plan(
     /,
     *,
     own: OwnRobotOptions = None,
-    asked: ConditionOptions = None,
+    asked: PlanConditionOptions = None,
     gap: Gap = 1e-3,
     time_limit: TimeLimit = None,
     no_bound: bool = False,
@@ -53,15 +54,13 @@ def plan(
     no_bound
         Prove nothing about how fast any motion could be, which saves some seconds.
     """
-    problem = problem_of(file, own)
-    conditions = conditions_of(asked, problem)
+    problem = problem_of(file, own, asked)
     if export is not None:
-        check_export(export, problem, rate, conditions)
+        check_export(export, problem, rate)
     try:
         with ctrl_c_stops() as asked_to_stop, stages(problem.name) as stage:
             motion = find_motion(
                 problem,
-                conditions=conditions,
                 gap=gap,
                 bound=not no_bound,
                 time_limit=time_limit,
@@ -79,7 +78,7 @@ def plan(
     if export is not None:
         if found.trajectory is None:
             raise InputError("--export: no joint moves, so there is no motion to write")
-        written = export_motion(export, problem, found.trajectory, rate, conditions=conditions)
+        written = export_motion(export, problem, found.trajectory, rate)
         text = "\n".join([text, "", *written.lines()])
     show(text, as_json(problem, found, bound), json)
     return INTERRUPTED if interrupted else DONE
@@ -130,6 +129,8 @@ def _proved(bound: FreeFormBound, timed: bool) -> str:
 def as_json(problem: Problem, found: FreeForm, bound: FreeFormBound | None = None) -> dict[str, object]:
     """The same as plain data, with every peak; joints and segments count from 1, as in the text.
 
+    Conditions stand in it as in a problem file, in rad, where waypoints count from 0.
+
     Parameters
     ----------
     problem : Problem
@@ -147,6 +148,7 @@ def as_json(problem: Problem, found: FreeForm, bound: FreeFormBound | None = Non
     passed = [] if found.trajectory is None else found.trajectory.passage_times.tolist()
     return {
         "problem": problem.name,
+        **asked_as_json(problem),
         "seconds": found.seconds,
         "passage_times": passed,
         "method": found.method,

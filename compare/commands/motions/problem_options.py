@@ -1,7 +1,8 @@
 """How a command is told its problem: a file, or files of limits and waypoints, with a URDF or without.
 
 Every command about a problem has two parameters for it, ``file: FileOrRobot = None`` and
-``own: OwnRobotOptions = None``, and calls ``problem_of(file, own)``.
+``own: OwnRobotOptions = None``, and calls ``problem_of(file, own)``; with the options of ``condition_options``,
+``problem_of(file, own, asked)``.
 """
 
 from __future__ import annotations
@@ -12,6 +13,8 @@ from pathlib import Path
 from typing import TYPE_CHECKING, Annotated, Literal
 
 from cyclopts import Group, Parameter
+
+from compare.commands.motions.condition_options import AskedConditions, conditions_of
 
 if TYPE_CHECKING:
     from formulations import Limits, Problem
@@ -120,7 +123,7 @@ def _path(text: str | None) -> Path | None:
 OwnRobotOptions = Annotated[OwnRobot | None, Parameter(name="*")]
 
 
-def problem_of(file: str | None, own: OwnRobot | None) -> Problem:
+def problem_of(file: str | None, own: OwnRobot | None, asked: AskedConditions | None = None) -> Problem:
     """Read the problem that a command is called with, and say on standard error what looks odd.
 
     Parameters
@@ -129,6 +132,8 @@ def problem_of(file: str | None, own: OwnRobot | None) -> Problem:
         A problem file, or the name of a shipped case.
     own : OwnRobot or None
         The options that stand in its place.
+    asked : AskedConditions, optional
+        The options that lie over its conditions.
 
     Returns
     -------
@@ -137,7 +142,7 @@ def problem_of(file: str | None, own: OwnRobot | None) -> Problem:
     Raises
     ------
     InputError
-        Neither is given, or both are, or one of the files cannot be used.
+        Neither is given, or both are, one of the files cannot be used, or an option does not fit.
     """
     from formulations import InputError, load
 
@@ -150,6 +155,7 @@ def problem_of(file: str | None, own: OwnRobot | None) -> Problem:
         )
     problem = load(file) if file is not None else own.problem() if own is not None else None
     assert problem is not None
+    problem = replace(problem, conditions=conditions_of(asked, problem))
     for hint in problem.hints:
         print(f"hint: {hint}", file=sys.stderr)
     return problem
@@ -217,6 +223,11 @@ def limits_for(points: MotionPoints, own: OwnRobot | None) -> tuple[MotionPoints
             raise InputError(f"--limits: {file} is a problem file, which stands alone")
         posed = load(file)
         limits, wanted, whose = posed.limits, posed.names, file
+        if not posed.conditions.none:
+            print(
+                f"hint: --limits {file}: its [conditions] are about its waypoints and are not used",
+                file=sys.stderr,
+            )
     else:
         files = own.files
         if files.joints is None and files.group is None and points.names:

@@ -9,6 +9,7 @@ from cyclopts import Parameter
 
 from compare.commands import BAD_INPUT, DONE, FAILED, INTERRUPTED
 from compare.commands.motions.climbing import chosen_rungs, climb, unsolved
+from compare.commands.motions.condition_options import PlanConditionOptions
 from compare.commands.motions.problem_options import FileOrRobot, OwnRobotOptions, problem_of
 from compare.commands.options import (
     Export,
@@ -27,6 +28,7 @@ from compare.screen import show, stages, table
 from formulations import RUNGS, InputError, Ladder, Problem
 from formulations.deadlines import Deadline
 from formulations.optima.at_rate.export import check_export, export_motion
+from formulations.problem.toml_file.plain_conditions import asked_as_json
 from formulations.proofs.certificate import write_certificate
 
 _LINES = 8  # of what limits the fastest motion
@@ -38,6 +40,7 @@ def solve(
     /,
     *,
     own: OwnRobotOptions = None,
+    asked: PlanConditionOptions = None,
     json: Json = None,
     certificate: Annotated[str | None, Parameter(metavar="FILE", validator=writable)] = None,
     motion_certificate: Annotated[str | None, Parameter(metavar="FILE", validator=writable)] = None,
@@ -62,7 +65,7 @@ def solve(
     motion_certificate
         Write the proof of free_form_lower, which holds for every motion.
     """
-    problem = problem_of(file, own)
+    problem = problem_of(file, own, asked)
     if export is not None:
         check_export(export, problem, rate)
     chosen = chosen_rungs(problem, rungs, without)
@@ -88,7 +91,7 @@ def solve(
     if held is not None and held.holds:
         text += ["\nwhat limits the fastest motion", *(f"  {line}" for line in held.lines()[:_LINES])]
     diagnosis = None if held is None else held.to_json()
-    show("\n".join(text), {**answer.to_json(), "diagnosis": diagnosis}, json)
+    show("\n".join(text), {**answer.to_json(), **asked_as_json(problem), "diagnosis": diagnosis}, json)
     say = sys.stderr if json == "-" else sys.stdout
     if reason := unsolved(answer):
         print(f"error: {problem.name}: no motion was found: {reason}", file=sys.stderr)

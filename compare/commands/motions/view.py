@@ -5,6 +5,7 @@ from __future__ import annotations
 import re
 import sys
 import webbrowser
+from dataclasses import replace
 from pathlib import Path
 from typing import Annotated
 
@@ -12,7 +13,7 @@ from cyclopts import Parameter
 
 from compare.commands import BAD_INPUT, BROKEN, DONE, INTERRUPTED
 from compare.commands.motions.climbing import chosen_rungs, climb, unsolved
-from compare.commands.motions.condition_options import ConditionOptions, conditions_of
+from compare.commands.motions.condition_options import ConditionOptions
 from compare.commands.motions.problem_options import (
     FileOrRobot,
     OwnRobot,
@@ -26,7 +27,7 @@ from compare.interrupts import ctrl_c_stops
 from compare.report.view_page import view_page
 from compare.report.viewed import Viewed
 from compare.screen import stages
-from formulations import NoFeasibleMotion, Problem, plan
+from formulations import Conditions, NoFeasibleMotion, Problem, plan
 from formulations.assessment import Assessment, beside
 from formulations.deadlines import Deadline
 from formulations.motion.files.motion_file import read_points
@@ -78,8 +79,8 @@ def view(
     """
     if file is not None and motion is None and own is not None and own != OwnRobot():
         file, motion = None, file
-    problem = problem_of(file, own)
-    conditions = conditions_of(asked, problem)
+    problem = problem_of(file, own, asked)
+    conditions = problem.conditions
     arm = known_arm(file, own)
     judged = None
     if motion is not None:
@@ -88,7 +89,6 @@ def view(
             read_points(motion),
             interpolation=interpolation,
             tolerance=tolerance,
-            conditions=conditions,
         )
     path = Path(out or page_name(problem))
     output_folder(path.parent)  # says so at once if it cannot be written to
@@ -101,7 +101,6 @@ def view(
             try:
                 planned = plan(
                     problem,
-                    conditions=conditions,
                     gap=gap,
                     time_limit=deadline.left,
                     stop=stop,
@@ -109,7 +108,9 @@ def view(
                 )
             except NoFeasibleMotion as reason:
                 remarks.append(f"No motion was found that keeps the conditions: {reason}.")
-        answer, held = climb(problem, chosen, deadline, stage, gap=gap)
+        # the ladder is that of the problem without conditions: what they cost is seen beside it
+        alone = replace(problem, conditions=Conditions())
+        answer, held = climb(alone, chosen, deadline, stage, gap=gap)
         interrupted = stop()
     bound = answer.free_form_bound
     if not conditions.none:

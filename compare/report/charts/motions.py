@@ -67,8 +67,7 @@ def motions_chart(problem: Problem, motions: Sequence[ShownMotion]) -> dict[str,
     scales = 1.0 / factors(problem.units, problem.display_unit)
     joints = []
     for j in range(problem.dof):
-        low, high = problem.position_bounds[j]
-        bounds = [(low, high), *((-limit, limit) for limit in problem.limits.derivatives[:, j])]
+        bounds = [problem.position_bounds[j], *problem.limits.ranges[:, j]]
         joints.append(
             {
                 "name": problem.joint_name(j),

@@ -97,9 +97,7 @@ def _curves(
     """One joint, one quantity."""
     t, x = samples(motion, joint, order)
     low, high = (
-        problem.position_bounds[joint]
-        if order == 0
-        else np.array([-1.0, 1.0]) * problem.limits.derivatives[order - 1, joint]
+        problem.position_bounds[joint] if order == 0 else problem.limits.ranges[order - 1, joint]
     )
     extent = np.abs(x).max()
     if claimed is not None:

@@ -17,7 +17,7 @@ from formulations.motion.judged_file import JudgedFile
 from formulations.motion.trajectory import Trajectory
 from formulations.motion.verdict import Verdict
 from formulations.optima.at_rate.motion import at_rate
-from formulations.optima.at_rate.requests import check_request, require_exportable
+from formulations.optima.at_rate.requests import check_request, require_exportable, require_kept
 from formulations.problem.conditions import Conditions
 from formulations.problem.errors import InputError, NoFeasibleMotion
 from formulations.problem.problem import Problem
@@ -116,8 +116,9 @@ def check_export(
     InputError
         No format has this suffix, or the rate or the limits cannot make a file.
     """
-    format_to_write(path)
     check_request(problem, rate, conditions)
+    if format_to_write(path) is not None or rate is not None:
+        require_kept(problem.conditions if conditions is None else conditions)
 
 
 def export_motion(

@@ -31,14 +31,16 @@ class JointBounds:
     ----------
     waypoints : Array, shape (n_waypoints,) [rad]
         Positions to pass.
-    velocity, acceleration, jerk : Array, shape (n_segments,) [rad/s, rad/s^2, rad/s^3]
-        Limits per segment, without the share that rounding may take; infinite where there is none.
+    velocity, acceleration : Array, shape (n_segments, 2) [rad/s, rad/s^2]
+        Least and greatest value per segment, without the share that rounding may take.
+    jerk : Array, shape (n_segments,) [rad/s^3]
+        Limits per segment in the same way; infinite where there is none.
     position : Array, shape (n_segments, 2) [rad]
         Least and greatest position per segment.
-    end_velocity : Array, shape (2,) [rad/s]
-        Velocity at the start and at the end.
-    rests : bool
-        Whether the acceleration is zero at both ends and at the stops.
+    end_velocity, end_acceleration : Array, shape (2,) [rad/s, rad/s^2]
+        At the start and at the end.
+    smooth : bool
+        Whether the acceleration may not jump: it is as given at both ends, and zero at the stops.
     stops : tuple of int
         Waypoints at which the joint stands still.
     """
@@ -49,7 +51,8 @@ class JointBounds:
     jerk: Array
     position: Array
     end_velocity: Array
-    rests: bool
+    end_acceleration: Array
+    smooth: bool
     stops: tuple[int, ...]
 
 
@@ -88,7 +91,8 @@ def least_jerk(times: Array, waypoints: Indices, bounds: JointBounds) -> tuple[A
     )  # fmt: skip
     if answer.x is None:
         return None
-    acceleration = 0.0 if bounds.rests else float(answer.x[columns.a[0]]) * unit.a
+    free = float(answer.x[columns.a[0]]) * unit.a
+    acceleration = float(bounds.end_acceleration[0]) if bounds.smooth else free
     start = np.array([bounds.waypoints[0], bounds.end_velocity[0], acceleration])
     return _corrected(times, answer.x[columns.j] * unit.j, start, waypoints, bounds), start
 
@@ -169,11 +173,11 @@ class _Units:
     def of(times: Array, bounds: JointBounds) -> _Units:
         total = float(times[-1])
         coasting = float(np.abs(bounds.end_velocity).max()) * total
-        a = float(bounds.acceleration.max())
+        a = float(np.abs(bounds.acceleration).max())
         finite = np.isfinite(bounds.jerk).all()
         return _Units(
             p=max(float(np.ptp(bounds.waypoints)), coasting, 1e-9),
-            v=min(float(bounds.velocity.max()), a * total),
+            v=min(float(np.abs(bounds.velocity).max()), a * total),
             a=a,
             # without a limit, no more than from one acceleration limit to the other within a cell
             j=float(bounds.jerk.max()) if finite else 2.0 * a / float(np.diff(times).min()),
@@ -216,8 +220,8 @@ def _box(
         (columns.a, unit.a, bounds.acceleration),
         (columns.v, unit.v, bounds.velocity),
     ):
-        upper[at] = np.minimum(limit[before], limit[after]) / size
-        lower[at] = -upper[at]
+        upper[at] = np.minimum(limit[before, 1], limit[after, 1]) / size
+        lower[at] = np.maximum(limit[before, 0], limit[after, 0]) / size
     origin, position = bounds.waypoints[0], bounds.position
     lower[columns.p] = (np.maximum(position[before, 0], position[after, 0]) - origin) / unit.p
     upper[columns.p] = (np.minimum(position[before, 1], position[after, 1]) - origin) / unit.p
@@ -230,9 +234,9 @@ def _box(
     fix(columns.p[waypoints], (bounds.waypoints - origin) / unit.p)
     fix(columns.v[stops], 0.0)
     fix(columns.v[[0, -1]], bounds.end_velocity / unit.v)
-    if bounds.rests:
+    if bounds.smooth:
         fix(columns.a[stops], 0.0)
-        fix(columns.a[[0, -1]], 0.0)
+        fix(columns.a[[0, -1]], bounds.end_acceleration / unit.a)
     return lower, upper
 
 
@@ -247,14 +251,14 @@ def _inequalities(
     shares = np.full(columns.n, columns.share)
     limit = bounds.jerk[segment] / unit.j if np.isfinite(bounds.jerk).all() else one
     middle = columns.rows((v, one), (a, d / 2.0 * unit.a / unit.v))  # of the quadratic
-    speed = bounds.velocity[segment] / unit.v
+    slowest, fastest = bounds.velocity[segment].T / unit.v
     rows = [
         columns.rows((j, one), (shares, -limit)),
         columns.rows((j, -one), (shares, -limit)),
         middle,
         -middle,
     ]
-    most = [np.zeros(columns.n), np.zeros(columns.n), speed, speed]
+    most = [np.zeros(columns.n), np.zeros(columns.n), fastest, -slowest]
     thirds = (  # of the cubic
         columns.rows((p, one), (v, d / 3.0 * unit.v / unit.p)),
         columns.rows((p, one), (v, d * 2.0 / 3.0 * unit.v / unit.p), (a, d**2 / 6.0 * unit.a / unit.p)),
@@ -282,8 +286,8 @@ def _corrected(
         *((1, at, 0.0) for at in stops),
         (1, last, float(bounds.end_velocity[1])),
     ]
-    if bounds.rests:
-        fixed += [*((2, at, 0.0) for at in stops), (2, last, 0.0)]
+    if bounds.smooth:
+        fixed += [*((2, at, 0.0) for at in stops), (2, last, float(bounds.end_acceleration[1]))]
     effects = np.array([_effect(times, order, at) for order, at, _ in fixed])
     scale = np.abs(effects).max(axis=1)
     usable = np.flatnonzero(scale > 0.0)

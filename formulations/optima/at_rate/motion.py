@@ -23,10 +23,11 @@ from formulations.motion.trajectory import Trajectory
 from formulations.motion.verdict import check
 from formulations.optima.at_rate.joint_program import JointBounds, integrated, least_jerk
 from formulations.optima.at_rate.points import SwitchPoints
-from formulations.optima.at_rate.requests import require_exportable
+from formulations.optima.at_rate.requests import require_exportable, require_kept
 from formulations.optima.at_rate.rounding import margins
 from formulations.problem.arrays import Array
 from formulations.problem.conditions import Conditions
+from formulations.problem.demands import Demands
 from formulations.problem.errors import NoFeasibleMotion
 from formulations.problem.problem import Problem
 
@@ -89,7 +90,8 @@ def at_rate(
     NoFeasibleMotion
         No motion was found even with 32 further periods per segment.
     """
-    asked = conditions or Conditions()
+    asked = problem.conditions if conditions is None else conditions
+    require_kept(asked)
     require_exportable(problem, trajectory.seconds, rate)
     verdict = None
     for patience in _EXTRA if rate is not None else _STRETCHES:
@@ -119,14 +121,14 @@ def _solve(
     if len(times) < 2:
         return None
     shares = margins(problem, float(times[-1]), float(np.diff(times).min()))
-    bounds = _Bounds.of(problem, asked, shares)
+    bounds = _Bounds.of(Demands.of(problem, asked), trajectory, shares)
     jerks = np.zeros((len(times) - 1, problem.dof))
     starts = np.zeros((3, problem.dof))
-    starts[0] = problem.waypoints[0]
+    starts[0] = bounds.waypoints[0]
     used = {0, len(times) - 1, *grid.waypoints.tolist()}
     passed = trajectory.passage_times
     for joint in range(problem.dof):
-        if not np.ptp(problem.waypoints[:, joint]) > 0.0 and not bounds.moves_at_ends(joint):
+        if not np.ptp(bounds.waypoints[:, joint]) > 0.0 and not bounds.ends[:, :, joint].any():
             continue
         cells = grid.cells(_switches(trajectory, joint), passed)
         found = least_jerk(times[cells], np.searchsorted(cells, grid.waypoints), bounds.of_joint(joint))
@@ -162,29 +164,46 @@ def _switches(trajectory: Trajectory, joint: int) -> Array:
 
 @dataclass(frozen=True)
 class _Bounds:
-    """Limits less the margins, for all joints."""
+    """Limits less the margins, places and end states of the given motion, for all joints."""
 
-    problem: Problem
-    asked: Conditions
-    limits: Array  # (3, n_segments, dof)
+    demands: Demands
+    waypoints: Array  # (n_waypoints, dof), where the given motion passes them
+    ends: Array  # (2 orders, 2 ends, dof): velocities and accelerations
+    left: Array  # (3, dof): share of the limits
 
     @staticmethod
-    def of(problem: Problem, asked: Conditions, shares: Array) -> _Bounds:
-        limits = asked.derivatives(problem) * (1.0 - np.minimum(shares, 0.5))[:, None]
-        return _Bounds(problem, asked, limits)
-
-    def moves_at_ends(self, joint: int) -> bool:
-        return bool(self.asked.end_velocities(self.problem)[:, joint].any())
+    def of(demands: Demands, trajectory: Trajectory, shares: Array) -> _Bounds:
+        low, high = np.moveaxis(demands.waypoints, -1, 0)
+        both = np.array([0.0, trajectory.seconds])
+        ends = np.stack([trajectory.at(both, order) for order in (1, 2)])
+        given = np.stack([demands.end_velocity, demands.end_acceleration])
+        ends = np.clip(ends, given[..., 0], given[..., 1])  # exact where they are asked for
+        if demands.cyclic:
+            ends[:, 1] = ends[:, 0]
+        return _Bounds(
+            demands,
+            np.clip(trajectory.at(trajectory.passage_times), low, high),
+            ends,
+            1.0 - np.minimum(shares, 0.5),
+        )
 
     def of_joint(self, joint: int) -> JointBounds:
-        problem = self.problem
+        demands, left, ends = self.demands, self.left[:, joint], self.ends[:, :, joint]
+        velocity, acceleration = (
+            demands.velocity[:, joint] * left[0],
+            demands.acceleration[:, joint] * left[1],
+        )
+        for state, limits in zip(ends, (velocity, acceleration), strict=True):
+            for end in (0, -1):  # a state that is asked for may lie on a limit
+                limits[end] = min(limits[end, 0], state[end]), max(limits[end, 1], state[end])
         return JointBounds(
-            waypoints=problem.waypoints[:, joint],
-            velocity=self.limits[0, :, joint],
-            acceleration=self.limits[1, :, joint],
-            jerk=self.limits[2, :, joint],
-            position=self.asked.position_bounds(problem)[:, joint],
-            end_velocity=self.asked.end_velocities(problem)[:, joint],
-            rests=bool(np.isfinite(problem.limits.jerk[joint])),
-            stops=tuple(sorted(self.asked.stops)),
+            waypoints=self.waypoints[:, joint],
+            velocity=velocity,
+            acceleration=acceleration,
+            jerk=demands.jerk[:, joint] * left[2],
+            position=demands.position[:, joint],
+            end_velocity=ends[0],
+            end_acceleration=ends[1],
+            smooth=bool(np.isfinite(demands.problem.limits.jerk[joint])),
+            stops=tuple(sorted(demands.conditions.stops)),
         )

@@ -74,12 +74,31 @@ def check_request(problem: Problem, rate: float | None, conditions: Conditions |
     """
     shares = np.abs(problem.displacements) / problem.limits.velocity
     require_exportable(problem, float(shares.max(axis=1).sum()), rate)
-    asked = conditions or Conditions()
+    asked = problem.conditions if conditions is None else conditions
     asked.validate(problem)
     if rate is None:
         return
     for waypoint, time in sorted(asked.times(problem).items()):
         require_point(waypoint, time, rate)
+
+
+def require_kept(asked: Conditions) -> None:
+    """Refuse what motions with points at a rate, or at the switching times, cannot keep.
+
+    Parameters
+    ----------
+    asked : Conditions
+
+    Raises
+    ------
+    InputError
+        The motion has to wait.
+    """
+    for waypoint in asked.waits:
+        raise InputError(
+            f"conditions.waits: waypoint {waypoint}: a file of points cannot hold a wait; write exact pieces "
+            "(.pieces.json)"
+        )
 
 
 def require_point(waypoint: int, time: float, rate: float) -> int:

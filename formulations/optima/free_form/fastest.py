@@ -20,6 +20,8 @@ from formulations.optima.free_form.nlp.assembly import RAMP
 from formulations.optima.free_form.nlp.conditioned import ConditionedProblem
 from formulations.optima.free_form.sensitivity import Sensitivity
 from formulations.optima.free_form.stage import Stage, VerifiedMotion
+from formulations.optima.free_form.vanishing import searched
+from formulations.optima.free_form.why_not import named, why_not
 from formulations.problem.arrays import Array
 from formulations.problem.conditions import Conditions
 from formulations.problem.errors import InputError, NoFeasibleMotion, NotFoundInTime
@@ -125,7 +127,8 @@ def free_form(
     problem : Problem
         Waypoints, shape (n_waypoints, dof) [rad], and limits per joint.
     conditions : Conditions, optional
-        Passage times, total time, stops, end velocities, limits of single segments.
+        Zones, times, stops, waits, states at the ends, cycles, limits of single segments. Those of the
+        problem if left out.
     mesh : int, default 7
         Arcs per segment and joint to begin with, 3 to 100. The profiles of Ruckig have seven, and few
         optima need more.
@@ -220,18 +223,23 @@ def free_form(
     task = ConditionedProblem(problem, asked)
     if not task.n_segments:
         return _nothing_moves(problem, asked, begun)
-    search = MeshRefinement(task, solver, progress, deadline)
-    with np.errstate(all="ignore"):  # what overflows is not finite, and the check refuses it
+
+    def run(task: ConditionedProblem) -> MeshRefinement:
+        search = MeshRefinement(task, solver, progress, deadline)
         if task.timed:
-            notes += search.run_timed(mesh)
+            notes.extend(note for note in search.run_timed(mesh) if note not in notes)
         else:
             search.run(mesh, tolerance)
+        return search
+
+    with np.errstate(all="ignore"):  # what overflows is not finite, and the check refuses it
+        search = searched(task, run)
     best = search.best
     status = search.status(tolerance)
     if best is None and search.ended:
-        raise NotFoundInTime(f"{status}: no motion was found yet that keeps {_named(asked)}")
+        raise NotFoundInTime(f"{status}: no motion was found yet that keeps {named(asked)}")
     if best is None:
-        raise NoFeasibleMotion(_why_not(problem, asked, search))
+        raise NoFeasibleMotion(why_not(search))
     if (
         asked.none
         and problem.limits.symmetric
@@ -290,29 +298,3 @@ def _reason(status: SearchStatus, search: MeshRefinement) -> str:
     if status is SearchStatus.NOT_CONVERGED:
         return search.reason or "the local solve converged to a slower motion"
     return ""
-
-
-def _named(asked: Conditions) -> str:
-    """The conditions that were asked for, by their keys."""
-    named = [key for key in ("passage", "total", "stops", "segment_limits") if getattr(asked, key)]
-    named += [key for key in ("start_velocity", "end_velocity") if getattr(asked, key) is not None]
-    return f"conditions.{', conditions.'.join(named)}"
-
-
-def _why_not(problem: Problem, asked: Conditions, search: MeshRefinement) -> str:
-    """One line that names the conditions and, where times are fixed, the nearest times that are possible."""
-    last = next((stage.status for stage in reversed(search.stages) if stage.status), "")
-    if asked.none:
-        return (
-            f"no motion passes the check, as the numbers are too far apart for double precision: {last}"
-        )
-    line = f"no motion found that keeps {_named(asked)}"
-    near = search.nearest
-    if near is not None and search.missed > 0.0:
-        found = dict(enumerate([0.0, *np.cumsum(near.times)]))
-        passed = [
-            f"waypoint {w} at {found[search.task.waypoint_of[w]]:.9g} s, {time:.9g} s asked for"
-            for w, time in sorted(asked.times(problem).items())
-        ]
-        return f"{line}; the nearest one found passes {'; '.join(passed)}"
-    return f"{line}; the last one tried: {last}"

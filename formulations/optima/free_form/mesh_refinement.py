@@ -73,8 +73,9 @@ class MeshRefinement:
         self.guarded: frozenset[tuple[int, int]] = frozenset()
         self.second = 1.0
         self.converged, self.reason = np.inf, ""
-        self.nearest: ArcMotion | None = None  # to the fixed times, and by how much it misses them
+        self.nearest: ArcMotion | None = None  # to the times asked for, and by how much it misses them
         self.missed = 0.0
+        self.last: ArcMotion | None = None  # that a program on free arcs found, kept or not
         self.clock = time.perf_counter()
 
     def _use(self, solver: str) -> None:
@@ -217,7 +218,7 @@ class MeshRefinement:
         return ["not the smoothest motion: no solution of that program was found"]
 
     def _nearest(self, start: ArcMotion, arcs: int) -> ArcMotion:
-        """Look for a motion that meets the fixed times: the one that misses them least."""
+        """Look for a motion that meets the times asked for: the one that misses them least."""
         name, n = "nearest to the given times", arcs + arcs // 2
         near = self._solved(name, start, n, free=False, tolerance=1e-6, elastic=True)
         if missed(self.task, near) > 1e-6 or self.best is None:
@@ -242,7 +243,7 @@ class MeshRefinement:
         return found
 
     def _without_times(self, mesh: int) -> MeshRefinement:
-        """The search for the fastest motion that need not meet the fixed times."""
+        """The search for the fastest motion that need not meet the times asked for."""
         asked = self.task.conditions
         least = {k: (low, np.inf) for k, (low, _) in asked.segment_times.items()}
         free = replace(asked, total=None, passage={}, windows={}, segment_times=least)
@@ -319,6 +320,8 @@ class MeshRefinement:
                 break
             self.guarded |= leaving
             start = motion
+        if free:
+            self.last = motion
         found = self.offer(name, motion, solution.status)
         if (free or smooth) and not elastic:
             self.reason = "" if solution.converged else solution.status

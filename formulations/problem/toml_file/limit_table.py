@@ -1,9 +1,9 @@
-"""The table ``[limits]`` of a problem file: alone, or laid over the limits of a robot's own files."""
+"""The table ``[limits]`` of a problem file: alone, or laid over other limits."""
 
 from __future__ import annotations
 
 from collections.abc import Sequence
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING, Any, TypeAlias
 
 import numpy as np
 
@@ -11,11 +11,22 @@ from formulations.problem.arrays import Array
 from formulations.problem.errors import InputError
 from formulations.problem.joint_words import UNITS, factors, joint_label, shown_unit
 from formulations.problem.limits import LIMITED, Limits
+from formulations.problem.toml_file.joint_values import by_joint, intervals_by_joint
 from formulations.problem.toml_file.keys import LIMIT_KEYS
-from formulations.problem.toml_file.toml_values import known_keys, read_choice, read_number, shown
+from formulations.problem.toml_file.toml_values import (
+    Number,
+    known_keys,
+    read_choice,
+    read_extended,
+    read_interval,
+    read_number,
+    shown,
+)
 
 if TYPE_CHECKING:
     from formulations.robot import Robot
+
+Limit: TypeAlias = float | tuple[float, float]
 
 
 def limits_of_table(
@@ -45,14 +56,14 @@ def limits_of_table(
     InputError
         In one line that names the key, the joint and the value.
     """
-    unit = _unit(table, unit)
+    unit = _unit("limits", table, unit)
     if "velocity" not in table:
         raise InputError("limits.velocity: missing")
-    given = _values(table, names, len(units))
+    given = _values("limits", table, names, len(units))
     filled: dict[str, Any] = {}
     for key in LIMITED[:3]:
         if key in given:
-            filled[key] = [given[key].get(joint, np.inf) for joint in range(len(units))]
+            filled[key] = _alike([given[key].get(joint, np.inf) for joint in range(len(units))])
     if "position" in given:
         free = (-np.inf, np.inf)
         filled["position"] = [given["position"].get(joint, free) for joint in range(len(units))]
@@ -84,77 +95,139 @@ def limits_of_robot(table: Any, unit: str, robot: Robot) -> tuple[Limits, str]:
     InputError
         In one line that names the key, the joint and the value, or every limit that is still missing.
     """
-    unit = _unit(table, unit)
-    scales = factors(robot.units, unit)
-    changes: dict[str, Any] = {}
-    for key, by_joint in _values(table, robot.names, robot.dof).items():
-        order = (LIMITED.index(key) + 1) % len(LIMITED)
-        changes[key] = {}
-        for joint, value in by_joint.items():
-            low, high = value if order == 0 else (0.0, value)
-            if not low < high:
-                what = f"[{low:g}, {high:g}]" if order == 0 else f"{value:g}"
-                fault = "empty" if order == 0 else "not positive"
-                raise InputError(
-                    f"limits.{key}: {joint_label(robot.names, joint)}: {what} "
-                    f"{shown_unit(robot.units[joint], unit, order)} is {fault}"
-                )
-            scaled = np.asarray(value) * scales[joint]
-            changes[key][robot.names[joint]] = tuple(scaled) if order == 0 else float(scaled)
-    return robot.with_limits(**changes).limits, unit
+    unit = _unit("limits", table, unit)
+    given = _values("limits", table, robot.names, robot.dof)
+    changes = _in_si("limits", given, unit, robot.names, robot.units)
+    moduli: dict[str, Any] = {
+        key: {
+            robot.names[joint]: value if key == "position" else float(np.abs(value).max())
+            for joint, value in by_number.items()
+        }
+        for key, by_number in changes.items()
+    }
+    whole = robot.with_limits(**moduli).limits  # a missing limit is asked for
+    return _with(whole, changes, robot.names, robot.units), unit
 
 
-def _unit(table: Any, unit: str) -> str:
+def limits_over(key: str, table: Any, unit: str, whole: Limits, names: Sequence[str]) -> Limits:
+    """Lay the limits of a segment over those of its problem.
+
+    Parameters
+    ----------
+    key : str
+        Where the table stands, for the message.
+    table : object
+        As ``tomllib`` reads it; what it does not give stays as it is. ``inf`` takes a limit away.
+    unit : {"rad", "deg"}
+        Unit of angles of the file.
+    whole : Limits
+        Of the problem.
+    names : sequence of str
+        Of the joints; empty where there are none.
+
+    Returns
+    -------
+    Limits
+
+    Raises
+    ------
+    InputError
+        In one line that names the key, the joint and the value.
+    """
+    unit = _unit(key, table, unit)
+    units = whole.units or ("rad",) * len(whole.velocity)
+    given = _values(key, table, names, len(units), read_extended)
+    return _with(whole, _in_si(key, given, unit, names, units), names, units)
+
+
+def _unit(key: str, table: Any, unit: str) -> str:
     if not isinstance(table, dict):
-        raise InputError(f"limits: expected a table, got {shown(table)}")
-    known_keys("limits", table, tuple(LIMIT_KEYS))
-    return read_choice("limits.unit", table.get("unit", unit), UNITS)
+        raise InputError(f"{key}: expected a table, got {shown(table)}")
+    known_keys(key, table, tuple(LIMIT_KEYS))
+    return read_choice(f"{key}.unit", table.get("unit", unit), UNITS)
 
 
-def _values(table: dict[str, Any], names: Sequence[str], dof: int) -> dict[str, dict[int, Any]]:
-    """By quantity and joint: the number, or (least, greatest) position, as written."""
-    found = {}
-    for key in LIMITED:
-        if key in table:
-            found[key] = _by_joint(f"limits.{key}", table[key], names, dof, pair=key == "position")
+def _values(
+    key: str, table: dict[str, Any], names: Sequence[str], dof: int, number: Number = read_number
+) -> dict[str, dict[int, Limit]]:
+    """By quantity and joint: the number, or (least, greatest) value, as written."""
+    found: dict[str, dict[int, Limit]] = {}
+    for quantity in LIMITED:
+        if quantity not in table:
+            continue
+        where, value = f"{key}.{quantity}", table[quantity]
+        if quantity == "position":
+            found[quantity] = dict(intervals_by_joint(where, value, names, dof, number))
+            continue
+
+        def read(place: str, entry: Any, *, both: bool = quantity != "jerk") -> Limit:
+            if both and isinstance(entry, list):
+                return read_interval(place, entry, ends="least, greatest", number=number)
+            return number(place, entry)
+
+        found[quantity] = by_joint(where, value, names, dof, read)
     return found
 
 
-def _by_joint(key: str, value: Any, names: Sequence[str], dof: int, *, pair: bool) -> dict[int, Any]:
-    """One quantity: a number for all joints, a list with an entry per joint, or a table by joint name."""
-    if isinstance(value, dict):
-        if not names:
-            raise InputError(f"{key}: a table by joint needs names of joints (key joints)")
-        known_keys(key, value, tuple(names))
-        entries = {names.index(name): entry for name, entry in value.items()}
-        rows = list(entries)
-        if not pair:
-            return {j: read_number(f"{key}: {joint_label(names, j)}", entries[j]) for j in rows}
-        return dict(zip(rows, _pairs(key, [entries[j] for j in rows], rows, names), strict=True))
-    if pair:
-        pairs = _pairs(key, value, list(range(dof)), names)
-        if len(pairs) != dof:
-            raise InputError(
-                f"{key}: {len(pairs)} intervals; expected [low, high] for each of {dof} joints"
-            )
-        return dict(enumerate(pairs))
-    if not isinstance(value, list):
-        return dict.fromkeys(range(dof), read_number(key, value))
-    if len(value) != dof:
-        raise InputError(f"{key}: {len(value)} values for {dof} joints")
-    return {j: read_number(f"{key}: {joint_label(names, j)}", entry) for j, entry in enumerate(value)}
-
-
-def _pairs(key: str, value: Any, joints: list[int], names: Sequence[str]) -> list[tuple[float, float]]:
-    """Intervals [low, high]; joints: whose they are, for messages."""
-    if not isinstance(value, list) or not value or not all(isinstance(row, list) for row in value):
-        raise InputError(f"{key}: expected [low, high] per joint, got {shown(value)}")
-    found = []
-    for index, row in enumerate(value):
-        joint = joints[index] if index < len(joints) else index
-        where = f"{key}: {joint_label(names if joint < len(names) else (), joint)}"
-        if len(row) != 2:
-            raise InputError(f"{where}: expected [low, high], got {shown(row)}")
-        low, high = (read_number(f"{where}, value {k + 1}", x) for k, x in enumerate(row))
-        found.append((low, high))
+def _in_si(
+    key: str,
+    given: dict[str, dict[int, Limit]],
+    unit: str,
+    names: Sequence[str],
+    units: Sequence[str],
+) -> dict[str, dict[int, Limit]]:
+    """The same in rad and m; a limit that cannot be is refused in the unit that it was written in."""
+    scales = factors(units, unit)
+    found: dict[str, dict[int, Limit]] = {}
+    for quantity, by_number in given.items():
+        order = (LIMITED.index(quantity) + 1) % len(LIMITED)
+        found[quantity] = {}
+        for joint, value in by_number.items():
+            low, high = _pair(value)
+            fine = low < high if order == 0 else low < 0.0 < high
+            if not fine:
+                shown_value = f"[{low:g}, {high:g}]" if isinstance(value, tuple) else f"{value:g}"
+                fault = "is empty" if order == 0 else "does not hold 0 inside"
+                if not isinstance(value, tuple):
+                    fault = "is not positive"
+                raise InputError(
+                    f"{key}.{quantity}: {joint_label(names, joint)}: {shown_value} "
+                    f"{shown_unit(units[joint], unit, order)} {fault}"
+                )
+            scale = float(scales[joint])
+            pair = isinstance(value, tuple)
+            found[quantity][joint] = (low * scale, high * scale) if pair else high * scale
     return found
+
+
+def _with(
+    whole: Limits,
+    changes: dict[str, dict[int, Limit]],
+    names: Sequence[str],
+    units: Sequence[str],
+) -> Limits:
+    """Limits with some replaced [rad and m]."""
+    speeds, steepest = (np.array(one) for one in whole.intervals)
+    merged: dict[str, Any] = {
+        "velocity": speeds,
+        "acceleration": steepest,
+        "jerk": np.array(whole.jerk),
+        "position": np.array(whole.position),
+    }
+    for quantity, by_number in changes.items():
+        for joint, value in by_number.items():
+            both_ways = quantity in LIMITED[:2]
+            merged[quantity][joint] = _pair(value) if both_ways else value
+    return Limits.of(**merged, dof=len(units), units=units, names=names)
+
+
+def _alike(values: list[Limit]) -> list[Any]:
+    """All of them as pairs where one is."""
+    if not any(isinstance(value, tuple) for value in values):
+        return values
+    return [_pair(value) for value in values]
+
+
+def _pair(value: Limit) -> tuple[float, float]:
+    """The limits in the two directions."""
+    return value if isinstance(value, tuple) else (-value, value)

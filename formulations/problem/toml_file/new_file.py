@@ -74,6 +74,9 @@ class NewFile:
             *self._waypoint_lines(folder),
             "",
             *self._limit_lines(),
+            "",
+            "# [conditions]    # zones, times, stops, waits, cycles, states at the ends; left out: none",
+            f"# tolerance = 0.01    # {self.unit}: how far from each inner waypoint each joint may pass it",
         ]
         return "\n".join(lines).rstrip() + "\n"
 

@@ -10,9 +10,10 @@ from typing import TYPE_CHECKING, Any
 from formulations.arms import Arm, load_arm
 from formulations.families import FAMILIES
 from formulations.problem.arrays import Array
-from formulations.problem.errors import InputError
+from formulations.problem.errors import InputError, UnsupportedProblem
 from formulations.problem.joint_words import METRES, UNITS
 from formulations.problem.problem import Problem
+from formulations.problem.toml_file.condition_table import conditions_of_table
 from formulations.problem.toml_file.keys import PROBLEM_KEYS
 from formulations.problem.toml_file.limit_table import limits_of_robot, limits_of_table
 from formulations.problem.toml_file.poses import (
@@ -120,7 +121,8 @@ def parse(text: str, *, where: str = "problem", folder: str | Path = ".") -> Pro
     ----------
     text : str
         The keys are in ``keys``: ``waypoints``, ``waypoints_file``, or ``robot`` or ``arm`` and ``[[pose]]``;
-        ``[limits]``, or ``robot`` and ``limits_file``; and ``name``, ``joints``, ``unit``, ``family``, ....
+        ``[limits]``, or ``robot`` and ``limits_file``; ``[conditions]``; and ``name``, ``joints``, ``unit``,
+        ``family``, ....
     where : str
         Start of every error line.
     folder : str or Path
@@ -174,6 +176,9 @@ def _problem(data: dict[str, Any], folder: Path) -> Problem:
         if "limits" not in data:
             raise InputError("limits: missing")
         limits, limit_unit = limits_of_table(data["limits"], unit, names, units, reach)
+    conditions = None
+    if "conditions" in data:
+        conditions = conditions_of_table(data["conditions"], unit, names, limits, len(waypoints))
     problem = Problem(
         waypoints,
         limits,
@@ -185,9 +190,12 @@ def _problem(data: dict[str, Any], folder: Path) -> Problem:
         names=names,
         units=units,
         unit=angle,
+        conditions=conditions,
     )
     if family is not None:
-        FAMILIES[family].require(problem)
+        reason = FAMILIES[family].refusal(problem.n_segments)
+        if reason is not None:
+            raise UnsupportedProblem(f"family: {reason}")
     return problem
 
 

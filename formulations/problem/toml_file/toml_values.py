@@ -7,13 +7,15 @@ from __future__ import annotations
 
 import difflib
 import math
-from collections.abc import Sequence
-from typing import Any
+from collections.abc import Callable, Sequence
+from typing import Any, TypeAlias
 
 import numpy as np
 
 from formulations.problem.arrays import Array
 from formulations.problem.errors import InputError
+
+Number: TypeAlias = Callable[[str, Any], float]
 
 
 def known_keys(kind: str, table: dict[str, Any], known: tuple[str, ...]) -> None:
@@ -163,15 +165,119 @@ def read_number(key: str, value: Any) -> float:
     InputError
         If the value is no number, too large for a float or not finite.
     """
+    number = read_extended(key, value)
+    if not math.isfinite(number):
+        raise InputError(f"{key}: {number} is not finite (leave the key out if unlimited)")
+    return number
+
+
+def read_extended(key: str, value: Any) -> float:
+    """Read a number that may be infinite, as ``inf`` of TOML.
+
+    Parameters
+    ----------
+    key : str
+        Where the value stands, for the message.
+    value : object
+        The value.
+
+    Returns
+    -------
+    float
+
+    Raises
+    ------
+    InputError
+        If the value is no number, too large for a float or NaN.
+    """
     if isinstance(value, bool) or not isinstance(value, (int, float)):
         raise InputError(f"{key}: expected a number, got {shown(value)}")
     try:
         number = float(value)
     except OverflowError:
         raise InputError(f"{key}: {shown(value)} is too large") from None
-    if not math.isfinite(number):
-        raise InputError(f"{key}: {number} is not finite (leave the key out if unlimited)")
+    if math.isnan(number):
+        raise InputError(f"{key}: {number} is not a number")
     return number
+
+
+def read_interval(
+    key: str, value: Any, *, ends: str = "low, high", number: Number = read_number
+) -> tuple[float, float]:
+    """Read two numbers.
+
+    Parameters
+    ----------
+    key : str
+        Where the value stands, for the message.
+    value : object
+        The value.
+    ends : str
+        What the two numbers are called in the message.
+    number : callable
+        Reads each.
+
+    Returns
+    -------
+    (float, float)
+
+    Raises
+    ------
+    InputError
+        If the value is no list of two numbers.
+    """
+    if not isinstance(value, list) or len(value) != 2:
+        raise InputError(f"{key}: expected [{ends}], got {shown(value)}")
+    low, high = (number(f"{key}, value {k + 1}", x) for k, x in enumerate(value))
+    return low, high
+
+
+def read_flag(key: str, value: Any) -> bool:
+    """Read true or false.
+
+    Parameters
+    ----------
+    key : str
+        Where the value stands, for the message.
+    value : object
+        The value.
+
+    Returns
+    -------
+    bool
+
+    Raises
+    ------
+    InputError
+        If the value is something else.
+    """
+    if not isinstance(value, bool):
+        raise InputError(f"{key}: expected true or false, got {shown(value)}")
+    return value
+
+
+def read_count(key: str, value: Any) -> int:
+    """Read a whole number from 0 on.
+
+    Parameters
+    ----------
+    key : str
+        Where the value stands, for the message.
+    value : object
+        The value.
+
+    Returns
+    -------
+    int
+
+    Raises
+    ------
+    InputError
+        If the value is something else.
+    """
+    if isinstance(value, bool) or not isinstance(value, int) or value < 0:
+        raise InputError(f"{key}: expected a whole number from 0 on, got {shown(value)}")
+    return value
 
 
 def read_matrix(key: str, rows: Any, row_name: str = "row", column_name: str = "joint") -> Array:

@@ -50,6 +50,26 @@ def test_a_file_names_robot_limits_and_waypoints_beside_it(folder: Path) -> None
     assert load(write(folder, FILE)) == problem
 
 
+def test_pairs_and_conditions_lie_over_the_limits_of_the_robot(folder: Path) -> None:
+    more = (
+        "[limits]\nvelocity = {turn = [-45, 30]}\n[conditions]\ntolerance = {bend = 3}\n"
+        "[[conditions.segment]]\nfrom = 0\nlimits = {velocity = {slide = [-0.1, 0.2]}}\n"
+    )
+    problem = load(write(folder, FILE + more))
+    speeds, steepest = problem.limits.intervals
+    np.testing.assert_allclose(speeds, [[-math.pi / 4, math.pi / 6], [-1, 1], [-0.5, 0.5]])
+    np.testing.assert_allclose(problem.limits.velocity, [math.pi / 4, 1, 0.5])
+    np.testing.assert_allclose(steepest[:, 1], load(write(folder, FILE)).limits.acceleration)
+    np.testing.assert_allclose(problem.conditions.tolerance[1], [0, math.radians(3), 0])
+    np.testing.assert_allclose(
+        problem.conditions.segment_limits[0].intervals[0],
+        [[-math.pi / 4, math.pi / 6], [-1, 1], [-0.1, 0.2]],
+    )
+    assert "joint turn: [1, 2] deg/s does not hold 0 inside" in refused(
+        folder, FILE + "[limits]\nvelocity = {turn = [1, 2]}\n"
+    )
+
+
 def test_the_limits_of_the_file_override_by_joint_by_list_and_for_all(folder: Path) -> None:
     more = (
         "[limits]\nvelocity = {turn = 45}\nacceleration = [90, 180, 1]\nposition = {slide = [0, 0.3]}\n"
