@@ -14,7 +14,8 @@ order and verifies every discard: if multipliers >= 0 of necessary conditions g 
 sum positive on all of a box (or of a slab of it), no motion is there. Every box of the tree must end so.
 A bound of every motion, whatever its family, is one such sum of inequalities.
 
-claim, balls, answers   the certificate read as exact numbers; the arithmetic; the answers
+claim, demands, reading the certificate read as exact numbers
+balls, answers          the arithmetic; the answers
 families                one checker per family: its conditions, and what its events mean
 verify, words           chooses the checker; writes its proof for people
 """

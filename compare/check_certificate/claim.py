@@ -20,7 +20,8 @@ class Claim:
     """The problem and the bound of a certificate, as exact numbers; None stands for no limit.
 
     names: of the joints, none or one each; w, d: waypoints and displacements [rad]; limits: of velocity,
-    acceleration, jerk; L: the bound [s]; events: the proof, not looked at yet.
+    acceleration, jerk; L: the bound [s]; without: waypoints that the proof leaves out; events: the proof, not
+    looked at yet.
     """
 
     def __init__(self, data: Any) -> None:
@@ -67,6 +68,10 @@ class Claim:
         elif not every:
             raise BadInput(f"demands: a bound of {self.family!r:.20} keeps none")
         self._asked = asked
+        without = data.get("without")
+        if without and asked is None:
+            raise BadInput("without: only a bound under demands leaves out waypoints")
+        self.without = frozenset(index(i, self.n) for i in items(without or [], 0, self.n))
         # the prover widens the limits by a thousandth more
         self.slack *= R(1001) / 1000
 

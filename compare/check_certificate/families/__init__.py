@@ -3,5 +3,5 @@
 three_five_three, four_three_four   a search tree (``tree``) of boxes
 quintic                             a chain of cells
 b_spline                            a tree of boxes, verified many at once in floats that are rounded outward
-relaxation                          inequalities that hold for every motion, jerks included
+every_motion                        inequalities that hold for every motion, jerks included
 """

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from itertools import product
 from typing import Any
 
 import numpy as np
@@ -24,10 +25,10 @@ def rows_everywhere(oracle: Oracle, rng: np.random.Generator, many: int = 30) ->
             for end, at in ((0, p), (1, i)):
                 for kind, there in (("w", oracle.jerky[j]), ("m", oracle.w[at, j] > 0.0)):
                     rows += [[kind, j, p, end, corner] for corner in range(4) if there]
-                if oracle.peaks(at, j):
-                    steepest = oracle.J_most[j] / 2.0
-                    slopes = [float(c) for c in np.linspace(-steepest, steepest, 9)]
-                    rows += [["v", j, p, end, sign, c] for sign in (-1, 1) for c in slopes]
+                slopes = oracle.J_most[j] * np.linspace(-0.5, 0.5, 9) if oracle.jerky[j] else ()
+                for sign, c in product((-1, 1), map(float, slopes)):
+                    if oracle.peak(at, j, sign * c > 0.0) is not None:
+                        rows.append(["v", j, p, end, sign, c])
     for _ in range(many * len(oracle.ks) * oracle.dof * 4):
         raw = oracle.random_row(rng)
         if raw is not None and raw[0] in "ardk":
@@ -45,7 +46,11 @@ def written(value: Any) -> Any:
 
 
 def certificate(
-    demands: dict[str, Any], seconds: float, horizon: float, events: list[Any]
+    demands: dict[str, Any],
+    seconds: float,
+    horizon: float,
+    events: list[Any],
+    without: frozenset[int] = frozenset(),
 ) -> dict[str, Any]:
     """A certificate as a file holds it."""
     x = np.array(demands["waypoints"])
@@ -66,6 +71,7 @@ def certificate(
         "seconds": float(seconds).hex(),
         "horizon": float(horizon).hex(),
         "demands": {key: written(value) for key, value in demands.items()},
+        "without": sorted(without),
         "events": events,
     }
 

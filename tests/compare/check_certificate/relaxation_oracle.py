@@ -8,6 +8,7 @@ from typing import Any
 import numpy as np
 from demanded_motions import Scenario
 
+Array = np.ndarray
 Key = tuple[Any, ...]
 Row = tuple[dict[Key, float], float]
 
@@ -15,12 +16,20 @@ Row = tuple[dict[Key, float], float]
 class Oracle:
     """Kept waypoints, limits, boxes and rows of demands, for motions of at most a horizon.
 
-    ``none``: nothing forces time between the ends, so there is no relaxation. ``free_peaks``: poses peak rows
-    also where an acceleration need not fade (they are wrong there).
+    ``without``: inner waypoints left out besides. ``none``: nothing forces time between the ends, so there is
+    no relaxation. ``wrong_peaks``: poses peak rows that are wrong, "free": where an acceleration need not fade
+    within the motion, "short": with the limits of a segment within which it need not fade.
     """
 
-    def __init__(self, demands: dict[str, Any], horizon: float, *, free_peaks: bool = False) -> None:
-        self.demands, self.free_peaks = demands, free_peaks
+    def __init__(
+        self,
+        demands: dict[str, Any],
+        horizon: float,
+        *,
+        without: frozenset[int] = frozenset(),
+        wrong_peaks: str = "",
+    ) -> None:
+        self.demands, self.without, self.wrong_peaks = demands, without, wrong_peaks
         self.cyclic = demands["cyclic"]
         x = self.x = np.array(demands["waypoints"])
         if self.cyclic:
@@ -55,7 +64,7 @@ class Oracle:
     def _kept(self) -> list[int]:
         kept = [0]
         for i in range(1, self.n):
-            if not self._together(kept[-1], i):
+            if i not in self.without and not self._together(kept[-1], i):
                 kept.append(i)
         while len(kept) > 1 and self._together(kept[-1], self.n):
             kept.pop()
@@ -181,14 +190,21 @@ class Oracle:
                     found["p", p, j, end] = found[self.key("e", at, j)] / T
         return found
 
-    def peaks(self, i: int, j: int) -> bool:
-        """Whether a peak row holds at a waypoint."""
-        if not self.jerky[j] or self.free_peaks:
-            return bool(self.jerky[j])
-        need = max(map(abs, self.box[self.key("a", i, j)])) / self.J_most[j] * (1.0 + 1e-9)
-        before = sum(self.box["T", p][0] for p in self.ks if p < i)
-        later = sum(self.box["T", p][0] for p in self.ks if p >= i)
-        return bool((self.fades[0, j] or before >= need) and (self.fades[1, j] or later >= need))
+    def peak(self, i: int, j: int, later: bool) -> tuple[Array, float] | None:
+        """Limits of velocity and jerk of a peak row at a waypoint; None where it is wrong.
+
+        The acceleration fades on the segment beside it, or elsewhere within the motion.
+        """
+        if not self.jerky[j]:
+            return None
+        steepest = max(map(abs, self.box[self.key("a", i, j)])) * (1.0 + 1e-9)
+        beside = [p for p, end in self.after.items() if (p if later else end) == i]
+        for p in beside:
+            if self.box["T", p][0] >= steepest / self.J[p][j] or self.wrong_peaks == "short":
+                return np.abs(self.V[p][j]), self.J[p][j]
+        time = sum(self.box["T", p][0] for p in self.ks if (p >= i) == later)
+        sound = self.fades[int(later), j] or time >= steepest / self.J_most[j]
+        return (self.largest[j], self.J_most[j]) if sound or self.wrong_peaks == "free" else None
 
     def row(self, raw: list[Any]) -> Row:
         """Coefficients and right-hand side of a row as the certificate names it, without multiplier."""
@@ -232,10 +248,12 @@ class Oracle:
         J = self.J[p][j] if self.jerky[j] else 0.0
         if kind == "v":
             end, sign, c = raw[3:6]
-            J = self.J_most[j]
+            found_limits = self.peak(i if end else p, j, sign * c > 0.0)
+            assert found_limits is not None
+            V, J = found_limits
             v = self.key("v", i if end else p, j)
             row = {v: float(sign), ("W", p, j, end): c / J, ("q", p): -c * c / (2 * J)}
-            return row, self.largest[j, int(sign > 0)]
+            return row, V[int(sign > 0)]
         if kind == "r":
             end, sign, s1, s2 = raw[3:7]
             at, towards = (i if end else p), (-sign if end else sign)
@@ -292,7 +310,8 @@ class Oracle:
             kind in "wv" or (kind in "ardk" and not np.isfinite(self.A[p][j]).all())
         ):
             return None
-        if kind == "v" and not self.peaks(at, j):
+        c = float(rng.normal() * 10.0 ** rng.uniform(-1.0, 1.5))
+        if kind == "v" and self.peak(at, j, sign * c > 0.0) is None:
             return None
         if kind == "l" and not np.isfinite(self.demands["passages"][i][1]):
             return None
@@ -310,7 +329,7 @@ class Oracle:
         return {
             "h": ["h"], "b": ["b", i], "l": ["l", i], "s": ["s", p], "t": ["t", p, t], "c": ["c", p, t],
             "w": ["w", j, p, end, int(rng.integers(4))], "m": ["m", j, p, end, int(rng.integers(4))],
-            "v": ["v", j, p, end, sign, float(rng.normal() * 10.0 ** rng.uniform(-1.0, 1.5))],
+            "v": ["v", j, p, end, sign, c],
             "a": ["a", j, p, sign, *(places[:2] if self.jerky[j] else [0.0, 1.0])],
             "r": ["r", j, p, end, sign, *places[:2]],
             "d": ["d", j, p, sign, *places], "k": ["k", j, p, sign, *places],

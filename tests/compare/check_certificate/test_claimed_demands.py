@@ -83,6 +83,19 @@ def test_a_waypoint_is_left_out_where_zones_meet() -> None:
     assert kept.kept == [0, 1, 2]
 
 
+def test_a_proof_may_leave_out_waypoints() -> None:
+    found = data(Conditions(waits={1: 0.5}), 2.1 * (1.0 - 1e-9))
+    verify(found)  # 1.6 s at top speed, and the wait
+    with pytest.raises(Refused, match="not above"):
+        verify({**found, "without": [1]})  # now the wait is a part of one duration
+    verify({**found, "without": [1], "seconds": (1.6 * (1.0 - 1e-9)).hex()})
+    for without in ([2], [-1], "all", [0.5], [1, 1, 1]):
+        with pytest.raises(BadInput):
+            verify({**found, "without": without})
+    with pytest.raises(BadInput, match="only a bound under demands"):
+        verify({**found, "demands": None, "without": [1]})
+
+
 def test_nothing_that_forces_time_proves_nothing() -> None:
     found = data(Conditions(tolerance={2: np.array([1.7])}))
     with pytest.raises(Refused, match="nothing forces time"):

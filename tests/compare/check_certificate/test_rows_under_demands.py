@@ -6,7 +6,7 @@ from collections.abc import Callable
 
 import numpy as np
 import pytest
-from demanded_motions import ENDS, scenario
+from demanded_motions import ENDS, Scenario, scenario
 from handmade_certificates import certificate, with_multiplier
 from relaxation_oracle import Oracle
 
@@ -16,8 +16,14 @@ from compare.check_certificate.families.every_motion.relaxation import Relaxatio
 ROWS = 300
 
 
+def some(rng: np.random.Generator, made: Scenario) -> frozenset[int]:
+    """Now and then a waypoint to leave out."""
+    inner = range(1, len(made.arrivals) - 1)
+    return frozenset(i for i in inner if rng.random() < 0.15)
+
+
 def excesses(
-    ends: str, seeds: range, spoil: Callable[[Oracle], None] | None = None, **options: bool
+    ends: str, seeds: range, spoil: Callable[[Oracle], None] | None = None, **options: str
 ) -> dict[str, float]:
     """The greatest relative violation of each kind of row, over random motions and places.
 
@@ -28,7 +34,7 @@ def excesses(
         rng = np.random.default_rng(seed)
         made = scenario(rng, ends, n=int(rng.integers(2, 6)))
         horizon = made.arrivals[-1] * float(rng.choice([1.0 + 1e-9, 1.5]))
-        oracle = Oracle(made.demands, horizon, **options)
+        oracle = Oracle(made.demands, horizon, without=some(rng, made), **options)
         if oracle.none:
             continue
         values = oracle.values(made)
@@ -50,13 +56,13 @@ def excesses(
 
 @pytest.mark.parametrize("ends", ENDS)
 def test_every_row_holds_for_every_motion_that_keeps_the_demands(ends: str) -> None:
-    worst = excesses(ends, range(40))
+    worst = excesses(ends, range(25))
     assert set(worst) >= set("hblstcwmardk")
 
 
-def test_a_peak_row_beside_a_free_end_is_violated() -> None:
-    """The acceleration need not fade inside the motion: that condition of the row is needed."""
-    assert excesses("free", range(40), free_peaks=True)["v"] > 1e-3
+@pytest.mark.parametrize("wrong", ["free", "short"])
+def test_a_peak_row_where_the_acceleration_need_not_fade_is_violated(wrong: str) -> None:
+    assert excesses("free", range(40), wrong_peaks=wrong)["v"] > 1e-3
 
 
 def tightest_limits(oracle: Oracle) -> None:
@@ -89,7 +95,7 @@ def no_waits(oracle: Oracle) -> None:
     [(tightest_limits, "dka"), (sides_swapped, "dkar"), (zones_shut, "dkr"), (no_waits, "b")],
 )
 def test_wrong_rows_are_noticed(spoil: Callable[[Oracle], None], kinds: str) -> None:
-    worst = excesses("given", range(60), spoil)
+    worst = excesses("given", range(40), spoil)
     assert all(worst[kind] > 1e-4 for kind in kinds), worst
 
 
@@ -100,10 +106,11 @@ def test_the_checker_builds_the_same_boxes_and_rows(ends: str) -> None:
         rng = np.random.default_rng(100 + seed)
         made = scenario(rng, ends, n=int(rng.integers(2, 6)))
         horizon = made.arrivals[-1] * float(rng.choice([1.0 + 1e-9, 1.5]))
-        oracle = Oracle(made.demands, horizon)
+        without = some(rng, made)
+        oracle = Oracle(made.demands, horizon, without=without)
         if oracle.none:
             continue
-        checker = Relaxation(Claim(certificate(made.demands, 1e-9, horizon, [])))
+        checker = Relaxation(Claim(certificate(made.demands, 1e-9, horizon, [], without)))
         assert checker.kept == oracle.kept
         assert not checker.void
         for key, box in oracle.box.items():
@@ -125,3 +132,24 @@ def test_the_checker_builds_the_same_boxes_and_rows(ends: str) -> None:
                     mine.get(key, 0.0), rel=1e-9, abs=1e-9 * size
                 ), (seed, raw, key)
     assert kinds >= set("hblstcwmardk")
+
+
+@pytest.mark.parametrize("ends", ENDS)
+def test_narrower_accelerations_hold_every_motion(ends: str) -> None:
+    """Two segments of given times bound the acceleration between them, zones and jerk limits as they are."""
+    narrowed = 0
+    for seed in range(15):
+        rng = np.random.default_rng(200 + seed)
+        made = scenario(rng, ends, n=int(rng.integers(2, 6)), times="all")
+        horizon = made.arrivals[-1] * 1.01
+        oracle = Oracle(made.demands, horizon)
+        if oracle.none:
+            continue
+        checker = Relaxation(Claim(certificate(made.demands, 1e-9, horizon, [["P"], ["F", []]])))
+        first, values = checker.boxes, oracle.values(made)
+        checker.replay()
+        for key, (lo, hi) in checker.boxes.items():
+            room = 1e-7 * (1.0 + abs(values[key]))
+            assert float(lo) - room <= values[key] <= float(hi) + room, (seed, key)
+            narrowed += float(hi - lo) < 0.9 * float(first[key][1] - first[key][0])
+    assert narrowed > 5

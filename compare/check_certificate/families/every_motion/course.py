@@ -1,9 +1,9 @@
 """The course of a motion: the waypoints between which time passes, and the limits between them.
 
 Where the boxes of two waypoints meet, a motion may be at both at one time, and 1 / T has no bound. Such a
-waypoint is left out, which allows more motions. What lies between two waypoints that are kept is a leg,
-with the number of the waypoint where it starts. The loosest limits of its segments hold on all of it, and
-waits inside it are a part of its time.
+waypoint is left out, which allows more motions. A proof may leave out others too. What lies between two
+waypoints that are kept is a leg, with the number of the waypoint where it starts. The loosest limits of its
+segments hold on all of it, and waits inside it are a part of its time.
 """
 
 from __future__ import annotations
@@ -34,20 +34,22 @@ class Leg:
     times: Interval
 
 
-def course(demands: ClaimedDemands) -> dict[int, Leg]:
+def course(demands: ClaimedDemands, without: frozenset[int]) -> dict[int, Leg]:
     """Find the legs of every motion that keeps some demands.
 
     Parameters
     ----------
     demands : ClaimedDemands
         Waypoints, limits and times.
+    without : frozenset of int
+        Inner waypoints that are left out in any case.
 
     Returns
     -------
     dict of int to Leg
         In order, by the waypoint where each starts. Refuses the certificate where nothing takes time.
     """
-    kept = _of_points(demands) if demands.plain else _of_zones(demands)
+    kept = _of_points(demands) if demands.plain else _of_zones(demands, without)
     return {start: _leg(demands, start, end) for start, end in pairwise(kept)}
 
 
@@ -62,7 +64,7 @@ def _of_points(demands: ClaimedDemands) -> list[int]:
     return [*moving, moving[-1] + 1]
 
 
-def _of_zones(demands: ClaimedDemands) -> list[int]:
+def _of_zones(demands: ClaimedDemands, without: frozenset[int]) -> list[int]:
     """The first waypoint, those that take time after the last one kept, and the last waypoint."""
     n = len(demands.durations)
     kept, since = [0], True  # since: whether none of the times after the last one kept forces time
@@ -70,7 +72,7 @@ def _of_zones(demands: ClaimedDemands) -> list[int]:
         since = since and bool(demands.durations[i - 1][0] == 0)
         if i - 1 > kept[-1]:
             since = since and bool(demands.waits[i - 1] == 0)
-        if not since or not _meet(demands, kept[-1], i):
+        if i not in without and not (since and _meet(demands, kept[-1], i)):
             kept.append(i)
             since = True
     while _at_once(demands, kept[-1], n):

@@ -7,7 +7,7 @@ too. The letters V and A mean the limits in the direction of the sign of a row, 
     s   u <= 1 / l + 1 / h - T / (l h)          t   u >= 2 / t - T / t^2
     c   q <= (h + 2 t) T + h t^2 u - 2 h t - t^2
     w   (T - bound) (a - f) of one sign         m   (u - bound) (e - f) of one sign
-    v   |v| + (2 c W - c^2 q) / (2 J) <= V      where the acceleration must fade within the motion
+    v   |v| + (2 c W - c^2 q) / (2 J) <= V      where the acceleration has to fade
     a   v1 - v0 <= s1 W0 + (1 - s2) W1 + (s2 - s1) A T + (s1^2 + (1 - s2)^2) / 2 J q
     r   s2 v0 + g W0 + p <= r u + (s2 - s1)^2 / 2 A T + .. J q,     r from c to a position limit
     d   (c1 - c0) u + p1 - p0 <= z v0 + .. W0 + (1 - y) v1 - .. W1 + (y - z) V + m A T + n A T + g J q
@@ -152,15 +152,29 @@ class Inequalities(Setting):
         return {(product, k, j, end): R(-side), x: side * t, by: side * f}, side * t * f
 
     def _peak(self, j: int, k: int, end: int, sign: int, c: Any) -> Inequality:
-        """Row v: the acceleration fades, or rose from 0, within the motion, and adds a^2 / (2 J)."""
-        J, i = self.J[j], self.after[k] if end else k
-        need(J is not None, "a row needs a jerk limit where there is none")
-        v, a = self.at("v", i, j), self.boxes[self.at("a", i, j)]
-        if not all(self.fades[j]):
-            fade = most(abs(a[0]), abs(a[1])) / J
-            for fades, time in zip(self.fades[j], self.least_times(i), strict=True):
-                need(fades or time >= fade, "a peak where the acceleration need not fade")
-        return {v: R(sign), ("W", k, j, end): c / J, ("q", k): -c * c / (2 * J)}, self.top[j][sign > 0]
+        """Row v: the acceleration fades after the waypoint, or rose from 0 before it, and adds a^2 / (2 J).
+
+        If sign a and sign c differ, the row is weaker than the limit of the velocity at the waypoint.
+        """
+        need(self.J[j] is not None, "a row needs a jerk limit where there is none")
+        i = self.after[k] if end else k
+        V, J = self._limits_of_peak(j, i, bool(sign * c > 0))
+        v = self.at("v", i, j)
+        return {v: R(sign), ("W", k, j, end): c / J, ("q", k): -c * c / (2 * J)}, V[sign > 0]
+
+    def _limits_of_peak(self, j: int, i: int, later: bool) -> tuple[Interval, Any]:
+        """Limits of velocity and jerk where the acceleration of a waypoint fades, later or before.
+
+        They are those of the next leg if that is long enough; else the largest of the whole motion, which
+        has to be long enough.
+        """
+        low, high = self.boxes[self.at("a", i, j)]
+        steepest, beside = most(abs(low), abs(high)), i if later else self.before.get(i)
+        if beside in self.legs and self.boxes["T", beside][0] >= steepest / self.legs[beside].jerk[j]:
+            return self.V[beside][j], self.legs[beside].jerk[j]
+        enough = self.fades[j][later] or self.least_times(i)[later] >= steepest / self.J[j]
+        need(enough, "a peak where the acceleration need not fade")
+        return self.top[j], self.J[j]
 
     def least_times(self, i: int) -> tuple[Any, Any]:
         """Add up the least durations, in the boxes in force.

@@ -22,7 +22,8 @@ Variable = tuple[Any, ...]
 class Setting:
     """Legs, limits and boxes.
 
-    legs: by the waypoint where each starts, ks; after: where it ends. kept: the waypoints at their ends; ends:
+    legs: by the waypoint where each starts, ks; after: where it ends; before: the
+    opposite. kept: the waypoints at their ends; ends:
     the first and the last of them. joints: those that rows may be about. c: middles of the zones. V, A: per
     leg and joint, (down, up), with the implied limits. top: the same of the whole motion. J: per joint, the
     largest; None without one. waited: before each waypoint, the time of standing still at those kept; waits:
@@ -33,9 +34,10 @@ class Setting:
     def __init__(self, claim: Claim, H: Any) -> None:
         self.claim, self.demands = claim, claim.demands()
         demands, dof = self.demands, range(claim.dof)
-        self.legs = course(demands)
+        self.legs = course(demands, claim.without)
         self.ks = list(self.legs)
         self.after = {k: leg.end for k, leg in self.legs.items()}
+        self.before = {end: k for k, end in self.after.items()}
         self.kept = [*self.ks, self.after[self.ks[-1]]]
         self.ends = (self.kept[0], self.kept[-1])
         sums = list(accumulate((demands.waits[i] for i in self.kept), initial=R(0)))
