@@ -118,3 +118,14 @@ def test_a_hint_ends_where_the_options_answer_it(
     assert "hint: waypoints: all 30 are multiples of 0.0001 rad" in capsys.readouterr().err
     assert main(["plan", "dense.toml", "--no-bound", "--tolerance", "5e-5"]) == 0
     assert "hint" not in capsys.readouterr().err
+
+
+def test_retime_says_that_conditions_are_about_other_waypoints(
+    folder: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
+    rows = "\n".join(f"{k},{0.01 * k:.4f},{0.02 * k:.4f}" for k in range(20))
+    Path("path.csv").write_text(f"time,position_1,position_2\n{rows}\n", "utf-8")
+    assert main(["retime", "path.csv", "--limits", "cell.toml"]) == 0
+    assert (
+        "hint: --limits cell.toml: its [conditions] are about its waypoints" in capsys.readouterr().err
+    )

@@ -9,7 +9,7 @@ import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
-from formulations import CASES, Conditions, Problem, load
+from formulations import CASES, Conditions, Problem, load, plan
 
 LIMITS = {"velocity": 2.0, "acceleration": 10.0, "jerk": 100.0}
 
@@ -83,3 +83,23 @@ def test_points_that_a_person_typed_get_no_hint() -> None:
     assert Problem(staircase, LIMITS).hints == ()
     grid = 0.01 * np.arange(50)[:, None] * [1.0, 2.0]  # exact multiples on a line
     assert Problem(grid, LIMITS).hints == ()
+
+
+def test_the_tolerance_that_the_hint_gives_undoes_the_rounding() -> None:
+    points = line(dof=2, n=40)
+    exact, rounded = Problem(points, LIMITS), Problem(points.round(4), LIMITS)
+    half = Conditions(tolerance=dict.fromkeys(range(1, 39), np.full(2, 5.0001e-5)))
+    assert np.abs(points[[0, -1]] - points[[0, -1]].round(4)).max() < 1e-4
+    seconds = {
+        name: plan(problem, bound=False).seconds
+        for name, problem in (
+            ("exact", exact),
+            ("rounded", rounded),
+            ("zoned", replace(rounded, conditions=half)),
+        )
+    }
+    (hint,) = rounded.hints
+    said = float(hint.split("take about ")[1].split()[0])
+    assert 1.1 < said <= seconds["rounded"] / seconds["exact"]
+    # the exact points are in the zones, and only the ends have moved, by half a step
+    assert seconds["zoned"] <= 1.001 * seconds["exact"]
