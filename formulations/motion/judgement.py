@@ -172,8 +172,9 @@ def judge(
         By how much a waypoint may be missed in each joint [rad].
     conditions : Conditions, optional
         What is asked for; the conditions of the problem if left out. A waypoint with a passage time has to
-        be within the tolerance at that time, one with a window at some time within it, and the whole motion may differ from a total time by 1e-5 s. At a stop,
-        less than a thousandth of the velocity and acceleration limits counts as standing still.
+        be within the tolerance at that time, one with a window at some time within it. The whole motion,
+        segments and waits may differ from the times asked for by 1e-5 s. At a stop, less than a thousandth
+        of the velocity and acceleration limits counts as standing still.
 
     Returns
     -------

@@ -12,7 +12,6 @@ from formulations.motion.extremes import Extremes
 from formulations.motion.trajectory import Trajectory
 from formulations.problem.demands import Demands
 from formulations.problem.joint_words import factors, shown_unit
-from formulations.problem.problem import Problem
 
 QUANTITIES = ("position", "velocity", "acceleration", "jerk")
 

@@ -54,10 +54,12 @@ def retime(
     """
     joints = list(motion.joints)
     states = {j: _kept_inside(task, j, arcs.states) for j, arcs in motion.joints.items()}
-    for j, found in states.items():
+    for j, own in states.items():
         for derivative, given in enumerate((task.ends[:, j], task.end_accelerations[:, j])):
-            found[[0, -1], derivative] = np.where(np.isnan(given), found[[0, -1], derivative], given)
+            own[[0, -1], derivative] = np.where(np.isnan(given), own[[0, -1], derivative], given)
     least = np.maximum(least_times(task, motion.places), motion.times if task.paced else 0.0)
+    if not joints:
+        return ArcMotion(least, {}, motion.places)
     times = np.zeros(task.n_segments)
     durations = np.zeros((len(joints), task.n_segments, _PHASES))
     tops = np.zeros_like(durations)

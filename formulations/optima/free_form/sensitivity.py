@@ -154,7 +154,7 @@ def _by_segment(pull: Array, segments: int, arcs: int) -> Array:
 
 
 def _reach(program: FreeFormNLP, solution: NLPSolution, order: int, side: int) -> Array:
-    """Limit upwards (1) or downwards (0) times arc duration in the program's units, in the order of its rows."""
+    """Limit upwards (1) or downwards (0) times arc duration, in the units and the order of the rows."""
     numbers, arcs = program.numbers, program.numbers.arcs_of(order)
     S, n = program.task.n_segments, len(numbers.groups[order])
     top = numbers.top(order, side).reshape(S, n)

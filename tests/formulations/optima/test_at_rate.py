@@ -149,3 +149,34 @@ def test_shipped_cases_cost_at_most_a_period_per_segment(case: str) -> None:
     times, states = points_of(motion)
     assert (factors(times, states, problem)[:2] <= 1.0 + 1e-9).all()
     assert motion.trajectory.seconds <= fastest.seconds + 2.0 * problem.n_segments / 125.0
+
+
+@pytest.mark.parametrize("rate", [None, 100.0])
+@pytest.mark.parametrize(
+    "asked",
+    [
+        Conditions(tolerance={1: np.array([0.2, 0.1])}),
+        Conditions(end_velocity="free", end_acceleration="free"),
+        Conditions(windows={1: (2.0, 9.0)}, segment_times={1: (2.5, np.inf)}),
+        Conditions(start_velocity=np.array([0.3, -0.2]), start_acceleration=np.array([0.5, 1.0])),
+    ],
+    ids=["zone", "free end", "times", "moving start"],
+)
+def test_demands_are_kept_by_points(asked: Conditions, rate: float | None) -> None:
+    limits = Limits.of([[-1.0, 2.0], [-1.5, 1.5]], [[-4.0, 3.0], [-5.0, 5.0]], 20.0, dof=2)
+    problem = Problem.of([[0.0, 0.0], [1.0, 0.5], [0.2, 1.0]], limits, conditions=asked)
+    fastest = free_form(problem).trajectory
+    assert fastest is not None
+    found = at_rate(problem, fastest, rate)
+    assert check(problem, found.trajectory).feasible
+    assert fastest.seconds * (1.0 - 1e-9) <= found.trajectory.seconds < 1.1 * fastest.seconds
+
+
+def test_points_refuse_a_wait() -> None:
+    asked = Conditions(waits={1: 0.5})
+    limits = Limits.of(2.0, 4.0, 20.0, dof=1)
+    problem = Problem.of([[0.0], [1.0], [0.2]], limits, conditions=asked)
+    waiting = free_form(problem).trajectory
+    assert waiting is not None
+    with pytest.raises(InputError, match=r"conditions\.waits: waypoint 1"):
+        at_rate(problem, waiting, 100.0)

@@ -202,7 +202,9 @@ class ConditionedProblem:
     @cached_property
     def waits(self) -> Array:
         """How long the motion stands still at the waypoints kept, (S + 1,) [s]."""
-        return np.bincount(self.waypoint_of, weights=self.demands.waits, minlength=self.n_segments + 1)
+        found = np.zeros(self.n_segments + 1)
+        np.add.at(found, self.waypoint_of, self.demands.waits)
+        return found
 
     @cached_property
     def waited(self) -> Array:
