@@ -1,0 +1,295 @@
+"""What each demand on a motion costs, in seconds: the task is solved again without it, motion and bound.
+
+The motion gives the estimate, motion and bound of both tasks the interval that is proved. What widens the
+choice of motions, such as a zone, is asked the other way round: what it saves.
+
+A new kind of demand is one more function in ``_LEFT_OUT``.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Iterable, Iterator, Mapping
+from dataclasses import dataclass, replace
+from typing import Any, NamedTuple
+
+import numpy as np
+
+from formulations.deadlines import NEVER, Deadline
+from formulations.optima.free_form import FreeForm, SearchStatus, free_form
+from formulations.problem.conditions import Conditions
+from formulations.problem.errors import InputError, NoFeasibleMotion, NotFoundInTime
+from formulations.problem.problem import Problem
+from formulations.proofs.every_motion.bound import FreeFormBound, free_form_bound
+
+_GAP, _PROOF = 1e-4, 20.0  # of each motion and its bound; s for one bound
+_NOTHING = 1e-5  # s
+_CUT_SHORT = (SearchStatus.TIME_LIMIT, SearchStatus.INTERRUPTED)
+
+
+@dataclass(frozen=True)
+class DemandCost:
+    """What one demand costs, or saves.
+
+    Attributes
+    ----------
+    demand : str
+        Its kind: "zone", "window", "passage", "least time", "greatest time", "wait", "stop",
+        "segment limits", "start state", "end state", "cycle", "total" or "asymmetric limit".
+    what : str
+        The demand in words; waypoints and segments count from 1.
+    place : int or None
+        Waypoint, segment or joint that it is about, from 0.
+    saves : bool
+        Whether it lets motions be faster, so that the seconds are saved; else they are lost.
+    seconds : float [s]
+        Difference of the two motions that were found.
+    least, greatest : float [s]
+        What is proved: the difference of the two least times of verified motions lies between these.
+    """
+
+    demand: str
+    what: str
+    place: int | None
+    saves: bool
+    seconds: float
+    least: float
+    greatest: float
+
+    @property
+    def line(self) -> str:
+        """The cost in one sentence."""
+        verb = "saves" if self.saves else "costs"
+        most = _digits(self.greatest, up=True)
+        if self.greatest < _NOTHING:
+            return f"{self.what} {verb} nothing (proved: at most {most} s)"
+        proved = f"at least {_digits(self.least)} s" if self.least > 0.0 else f"at most {most} s"
+        return f"{self.what} {verb} {self.seconds:.4g} s (proved: {proved})"
+
+    def to_json(self) -> dict[str, Any]:
+        """The same as plain data; the place counts from 1."""
+        place = None if self.place is None else self.place + 1
+        greatest = self.greatest if np.isfinite(self.greatest) else None
+        return {**vars(self), "place": place, "greatest": greatest}
+
+
+class _Without(NamedTuple):
+    """One demand, and the task without it."""
+
+    demand: str
+    what: str
+    place: int | None
+    saves: bool
+    problem: Problem
+    conditions: Conditions
+
+
+class _Solved(NamedTuple):
+    """The best motion of a task [s], and what no verified motion beats [s]."""
+
+    motion: float
+    bound: float
+
+
+def demand_costs(
+    problem: Problem,
+    conditions: Conditions | None = None,
+    *,
+    found: FreeForm | None = None,
+    deadline: Deadline = NEVER,
+    progress: Callable[[str], None] | None = None,
+) -> tuple[DemandCost, ...]:
+    """Solve a task without each of its demands in turn, and say what each costs.
+
+    Parameters
+    ----------
+    problem : Problem
+    conditions : Conditions, optional
+        In place of the problem's own.
+    found : FreeForm, optional
+        The motion under all demands; searched for if left out.
+    deadline : Deadline
+        Demands that are not solved without when it is over are left out.
+    progress : callable, optional
+        Called with each demand in words before it is left out.
+
+    Returns
+    -------
+    tuple of DemandCost
+        Largest first. Where the total time is given, the total alone: under it no other demand
+        changes the time.
+
+    Raises
+    ------
+    NoFeasibleMotion
+        No motion was found that keeps all demands.
+
+    Notes
+    -----
+    With motions of times u and lower bounds b, the least times differ by at least b - u' and at most
+    u - b', where a prime marks the task without the demand. The bounds are those of motions that pass
+    the check, whose tolerances can save a part in 1e8 (``FreeFormBound.least_verified``).
+
+    Examples
+    --------
+    A joint turns back at 1 rad, where it stands still in any case, and waits there for half a second:
+
+    >>> from formulations import Conditions, Limits, Problem
+    >>> problem = Problem.of([[0.0], [1.0], [0.0]], Limits.of(velocity=10.0, acceleration=4.0, dof=1))
+    >>> for cost in demand_costs(problem, Conditions(waits={1: 0.5})):
+    ...     print(f"{cost.what} costs {cost.seconds:.4f} s")
+    the wait at waypoint 2 costs 0.5000 s
+    """
+    asked = problem.conditions if conditions is None else conditions
+    problem = replace(problem, conditions=asked)
+    left_out = list(_demands(problem))
+    if not left_out or deadline.over:
+        return ()
+    say = progress or (lambda what: None)
+    whole = _solved(problem, deadline, found)
+    costs = []
+    for one in left_out if whole is not None else ():
+        if deadline.over:
+            break
+        say(one.what)
+        try:
+            other = _solved(replace(one.problem, conditions=one.conditions), deadline)
+        except NotFoundInTime:
+            break
+        except (InputError, NoFeasibleMotion):
+            continue  # nothing can be compared: without it the task is none, or no motion is found
+        if other is None:
+            break
+        faster, slower = (whole, other) if one.saves else (other, whole)
+        costs.append(
+            DemandCost(
+                one.demand,
+                one.what,
+                one.place,
+                one.saves,
+                slower.motion - faster.motion,
+                slower.bound - faster.motion,
+                slower.motion - faster.bound,
+            )
+        )
+    return tuple(sorted(costs, key=lambda cost: -cost.seconds))
+
+
+def _solved(problem: Problem, deadline: Deadline, found: FreeForm | None = None) -> _Solved | None:
+    """Motion and bound; None where the time ended the search."""
+    motion = found or free_form(problem, tolerance=_GAP, time_limit=deadline.left, stop=deadline.stop)
+    if motion.status in _CUT_SHORT:
+        return None
+    proof: FreeFormBound = free_form_bound(
+        problem,
+        gap=_GAP,
+        upper=None if motion.trajectory is None else motion.seconds,
+        time_limit=deadline.within(_PROOF).left,
+        stop=deadline.stop,
+    )
+    bound = proof.least_verified
+    fixed = problem.conditions.times(problem).get(problem.n_segments)
+    return _Solved(motion.seconds, bound if fixed is None else max(bound, fixed))
+
+
+def _demands(problem: Problem) -> Iterator[_Without]:
+    asked = problem.conditions
+    if problem.n_segments in asked.times(problem):
+        less = asked.without_total(problem)
+        yield _Without("total", "the given total time", None, False, problem, less)
+        return
+    for kind in _LEFT_OUT:
+        yield from kind(problem)
+
+
+def _of_waypoints(problem: Problem) -> Iterator[_Without]:
+    asked, last = problem.conditions, problem.n_segments
+    kinds = (
+        ("zone", "the zone of", "tolerance", True),
+        ("window", "the window of", "windows", False),
+        ("passage", "the passage time of", "passage", False),
+    )
+    for demand, words, key, saves in kinds:
+        given: Mapping[int, Any] = getattr(asked, key)
+        ends = (0, last) if asked.cyclic and demand == "zone" else ()  # they are one waypoint
+        for k in sorted(given):
+            if k == last and ends:
+                continue
+            gone = set(ends) if k in ends else {k}
+            less = replace(asked, **{key: _less(given, gone)})
+            yield _Without(demand, f"{words} waypoint {k + 1}", k, saves, problem, less)
+    for k in sorted(asked.waits):
+        less = replace(asked, waits=_less(asked.waits, {k}))
+        yield _Without("wait", f"the wait at waypoint {k + 1}", k, False, problem, less)
+    for k in sorted(asked.stops - set(asked.waits) - (set() if asked.cyclic else {0, last})):
+        less = replace(asked, stops=asked.stops - {k})
+        yield _Without("stop", f"the stop at waypoint {k + 1}", k, False, problem, less)
+
+
+def _of_segments(problem: Problem) -> Iterator[_Without]:
+    asked = problem.conditions
+    for k, (least, greatest) in sorted(asked.segment_times.items()):
+        others = _less(asked.segment_times, {k})
+        for demand, there, rest in (
+            ("least time", least > 0.0, (0.0, greatest)),
+            ("greatest time", np.isfinite(greatest), (least, np.inf)),
+        ):
+            if there:
+                less = replace(asked, segment_times={**others, k: rest})
+                yield _Without(demand, f"the {demand} of segment {k + 1}", k, False, problem, less)
+    for k in sorted(asked.segment_limits):
+        less = replace(asked, segment_limits=_less(asked.segment_limits, {k}))
+        yield _Without("segment limits", f"segment {k + 1}'s own limits", k, False, problem, less)
+
+
+def _of_ends(problem: Problem) -> Iterator[_Without]:
+    """States at the ends: those given cost against free ones, free ones save against rest."""
+    asked = problem.conditions
+    for end in ("start", "end"):
+        for quantity in ("velocity", "acceleration"):
+            key = f"{end}_{quantity}"
+            value = getattr(asked, key)
+            if value is None:
+                continue
+            free = isinstance(value, str)
+            what = f"the {'free' if free else 'given'} {quantity} at the {end}"
+            less = replace(asked, **{key: None if free else "free"})
+            yield _Without(f"{end} state", what, None, free, problem, less)
+    if asked.cyclic:
+        less = replace(asked, cyclic=False)
+        yield _Without("cycle", "going round without a halt", None, True, problem, less)
+
+
+def _of_directions(problem: Problem) -> Iterator[_Without]:
+    """Limits that differ between the directions, against the greater one in both."""
+    limits = problem.limits
+    for quantity in ("velocity", "acceleration"):
+        interval = getattr(limits, f"{quantity}_interval")
+        for j in () if interval is None else np.flatnonzero(interval.sum(axis=1) != 0.0).tolist():
+            even = interval.copy()
+            even[j] = np.abs(even[j]).max() * np.array([-1.0, 1.0])
+            wider = replace(problem, limits=replace(limits, **{f"{quantity}_interval": even}))
+            low, high = np.abs(interval[j])
+            way = "back" if low < high else "forth"
+            what = f"{problem.joint_name(j)}'s lower {quantity} limit on the way {way}"
+            yield _Without("asymmetric limit", what, j, False, wider, problem.conditions)
+
+
+_LEFT_OUT: tuple[Callable[[Problem], Iterator[_Without]], ...] = (
+    _of_waypoints,
+    _of_segments,
+    _of_ends,
+    _of_directions,
+)
+
+
+def _less(given: Mapping[int, Any], gone: Iterable[int]) -> dict[int, Any]:
+    dropped = set(gone)
+    return {k: value for k, value in given.items() if k not in dropped}
+
+
+def _digits(seconds: float, *, up: bool = False) -> str:
+    """Four digits, rounded to the side on which what is said stays proved."""
+    if not (np.isfinite(seconds) and seconds > 0.0):
+        return f"{seconds:.4g}"
+    unit = 10.0 ** (np.floor(np.log10(seconds)) - 3.0)
+    return f"{(np.ceil if up else np.floor)(seconds / unit) * unit:.4g}"
