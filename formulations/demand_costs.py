@@ -83,11 +83,25 @@ class _Without(NamedTuple):
     conditions: Conditions
 
 
-class _Solved(NamedTuple):
-    """The best motion of a task [s], and what no verified motion beats [s]."""
+class SolvedTask(NamedTuple):
+    """The best motion of a task [s], and what no verified motion of it beats [s]."""
 
     motion: float
     bound: float
+
+    def over(self, other: SolvedTask) -> tuple[float, float, float]:
+        """Compare with another task.
+
+        Parameters
+        ----------
+        other : SolvedTask
+
+        Returns
+        -------
+        tuple of float [s]
+            How much longer this task takes: by the two motions, at least and at most, proved.
+        """
+        return self.motion - other.motion, self.bound - other.motion, self.motion - other.bound
 
 
 def demand_costs(
@@ -145,14 +159,14 @@ def demand_costs(
     if not left_out or deadline.over:
         return ()
     say = progress or (lambda what: None)
-    whole = _solved(problem, deadline, found)
+    whole = solved(problem, deadline, found)
     costs = []
     for one in left_out if whole is not None else ():
         if deadline.over:
             break
         say(one.what)
         try:
-            other = _solved(replace(one.problem, conditions=one.conditions), deadline)
+            other = solved(replace(one.problem, conditions=one.conditions), deadline)
         except NotFoundInTime:
             break
         except (InputError, NoFeasibleMotion):
@@ -166,16 +180,30 @@ def demand_costs(
                 one.what,
                 one.place,
                 one.saves,
-                slower.motion - faster.motion,
-                slower.bound - faster.motion,
-                slower.motion - faster.bound,
+                *slower.over(faster),
             )
         )
     return tuple(sorted(costs, key=lambda cost: -cost.seconds))
 
 
-def _solved(problem: Problem, deadline: Deadline, found: FreeForm | None = None) -> _Solved | None:
-    """Motion and bound; None where the time ended the search."""
+def solved(
+    problem: Problem, deadline: Deadline = NEVER, found: FreeForm | None = None
+) -> SolvedTask | None:
+    """Find the fastest motion of a task and its bound.
+
+    Parameters
+    ----------
+    problem : Problem
+        With its conditions.
+    deadline : Deadline
+    found : FreeForm, optional
+        Its motion, where it is known.
+
+    Returns
+    -------
+    SolvedTask or None
+        None where the time ended the search.
+    """
     motion = found or free_form(problem, tolerance=_GAP, time_limit=deadline.left, stop=deadline.stop)
     if motion.status in _CUT_SHORT:
         return None
@@ -188,7 +216,7 @@ def _solved(problem: Problem, deadline: Deadline, found: FreeForm | None = None)
     )
     bound = proof.least_verified
     fixed = problem.conditions.times(problem).get(problem.n_segments)
-    return _Solved(motion.seconds, bound if fixed is None else max(bound, fixed))
+    return SolvedTask(motion.seconds, bound if fixed is None else max(bound, fixed))
 
 
 def _demands(problem: Problem) -> Iterator[_Without]:

@@ -24,7 +24,7 @@ def only(costs: tuple[DemandCost, ...]) -> DemandCost:
 
 def holds(cost: DemandCost, truth: float) -> None:
     assert cost.seconds == pytest.approx(truth, abs=1e-4)
-    assert cost.least <= truth <= cost.greatest
+    assert cost.least - 1e-12 <= truth <= cost.greatest + 1e-12
     assert cost.greatest - cost.least < 1e-3
 
 
