@@ -243,7 +243,8 @@ def _of_waypoints(problem: Problem) -> Iterator[_Without]:
             if k == last and ends:
                 continue
             gone = set(ends) if k in ends else {k}
-            less = replace(asked, **{key: _less(given, gone)})
+            rest: dict[str, Any] = {key: _less(given, gone)}
+            less = replace(asked, **rest)
             yield _Without(demand, f"{words} waypoint {k + 1}", k, saves, problem, less)
     for k in sorted(asked.waits):
         less = replace(asked, waits=_less(asked.waits, {k}))
@@ -280,7 +281,8 @@ def _of_ends(problem: Problem) -> Iterator[_Without]:
                 continue
             free = isinstance(value, str)
             what = f"the {'free' if free else 'given'} {quantity} at the {end}"
-            less = replace(asked, **{key: None if free else "free"})
+            other: dict[str, Any] = {key: None if free else "free"}
+            less = replace(asked, **other)
             yield _Without(f"{end} state", what, None, free, problem, less)
     if asked.cyclic:
         less = replace(asked, cyclic=False)

@@ -4,8 +4,10 @@ fastest           ``free_form``, which others call, and its answer
 ending            how the search ended
 stage             one step of the search
 mesh_refinement   the search: programs on finer and finer meshes, each motion judged by the check
+vanishing         zones that are passed at one time
+why_not           why there is no motion, and the nearest times that are possible
 stop_and_go       the motion that is always there, in closed form
-faults            what a motion keeps badly: position limits, fixed times
+faults            what a motion keeps badly: position limits, times
 retiming          each segment's least time between waypoint states, by Ruckig
 sensitivity       what each limit costs, from the multipliers
 nlp/              the nonlinear program: ``nlp.equations`` has it in one page

@@ -11,7 +11,6 @@ from __future__ import annotations
 
 import time
 from collections.abc import Callable
-from dataclasses import replace
 from functools import partial
 
 import numpy as np
@@ -152,7 +151,7 @@ class MeshRefinement:
         begin = start = stop_and_go_motion(self.task)
         found = self.offer("stop and go", start)
         self.second = float(start.times.mean())
-        if not self.task.group(2) and not self.task.group(3) and not self._is_open():
+        if not self.task.is_open:
             self.converged = np.inf if found is None else found.verdict.seconds
             return
         if self.task.hurried:
@@ -176,10 +175,6 @@ class MeshRefinement:
             self._use("highs")
             self._round(start, mesh, tolerance)
         self._finish(tolerance)
-
-    def _is_open(self) -> bool:
-        """Whether the closed form leaves something to choose: places in zones, or times to be met."""
-        return bool(self.task.zones.any()) or self.task.hurried
 
     def run_timed(self, mesh: int) -> list[str]:
         """Search for the smoothest motion that takes the given time, or else for any.
@@ -244,11 +239,7 @@ class MeshRefinement:
 
     def _without_times(self, mesh: int) -> MeshRefinement:
         """The search for the fastest motion that need not meet the times asked for."""
-        asked = self.task.conditions
-        least = {k: (low, np.inf) for k, (low, _) in asked.segment_times.items()}
-        free = replace(asked, total=None, passage={}, windows={}, segment_times=least)
-        task = ConditionedProblem(self.task.problem, free, self.task.vanishing)
-        inner = MeshRefinement(task, self.solver, None, self.deadline)
+        inner = MeshRefinement(self.task.unhurried(), self.solver, None, self.deadline)
         inner.run(mesh, 1e-3)
         return inner
 

@@ -16,7 +16,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from formulations.optima.free_form.nlp.equations import Block
+from formulations.optima.free_form.nlp.blocks import Block
 from formulations.optima.free_form.nlp.program import FreeFormNLP, NLPSolution
 from formulations.problem.arrays import Array
 

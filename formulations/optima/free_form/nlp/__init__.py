@@ -2,6 +2,8 @@
 
 conditioned   the problem under its conditions, without segments and joints that cannot matter
 arcs          a motion as arcs of constant jerk
+passed_at_once  which waypoints are passed at one time
+blocks        what a program is made of: its shape, blocks with bounds, parameters
 equations     the program: variables, parameters and rows, each registered with its bounds
 scaled        the numbers of one problem in the program's units
 program       equations and numbers together; motions to points and back

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from functools import cached_property
 
 import numpy as np
@@ -250,3 +250,16 @@ class ConditionedProblem:
     def stretchable(self) -> bool:
         """Whether a slowed-down motion still keeps the conditions."""
         return not self.hurried and not np.nan_to_num(self._given).any()
+
+    @property
+    def is_open(self) -> bool:
+        """Whether stop and go in closed form leaves something to choose."""
+        arcs = bool(self.group(2) or self.group(3))
+        return arcs or self.hurried or bool(self.zones.any())
+
+    def unhurried(self) -> ConditionedProblem:
+        """The same task, in which nothing has to be done at or within a time."""
+        asked = self.conditions
+        least = {k: (low, np.inf) for k, (low, _) in asked.segment_times.items()}
+        free = replace(asked, total=None, passage={}, windows={}, segment_times=least)
+        return replace(self, conditions=free)

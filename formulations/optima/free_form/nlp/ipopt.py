@@ -17,7 +17,8 @@ import numpy as np
 
 from formulations.deadlines import NEVER, Deadline
 from formulations.deadlines.ipopt import StoppableIpopt
-from formulations.optima.free_form.nlp.equations import Shape, equations_of
+from formulations.optima.free_form.nlp.blocks import Shape
+from formulations.optima.free_form.nlp.equations import equations_of
 from formulations.optima.free_form.nlp.program import FreeFormNLP, NLPSolution
 from formulations.problem.arrays import Array
 

@@ -7,8 +7,9 @@ from dataclasses import dataclass
 import numpy as np
 
 from formulations.optima.free_form.nlp.arcs import ArcMotion, Arcs
+from formulations.optima.free_form.nlp.blocks import Shape
 from formulations.optima.free_form.nlp.conditioned import ConditionedProblem
-from formulations.optima.free_form.nlp.equations import Shape, equations_of
+from formulations.optima.free_form.nlp.equations import equations_of
 from formulations.optima.free_form.nlp.scaled import Offset, ScaledProblem
 from formulations.problem.arrays import Array
 

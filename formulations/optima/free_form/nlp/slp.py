@@ -22,7 +22,8 @@ from scipy import sparse
 from scipy.optimize import linprog
 
 from formulations.deadlines import NEVER, Deadline
-from formulations.optima.free_form.nlp.equations import Shape, equations_of
+from formulations.optima.free_form.nlp.blocks import Shape
+from formulations.optima.free_form.nlp.equations import equations_of
 from formulations.optima.free_form.nlp.program import FreeFormNLP, NLPSolution
 from formulations.problem.arrays import Array, Truths
 
