@@ -162,6 +162,11 @@ _ALL = (
         "timebound free_form_study --count 200 --json answers.json",
     ),
     Command(
+        "condition_gaps", "compare.commands.studies.condition_gaps:condition_gaps", STUDIES,
+        "Find motions under each kind of condition on random problems, and their gaps.",
+        "timebound condition_gaps --count 100 --out report",
+    ),
+    Command(
         "rivals", "compare.commands.studies.rivals:rivals", STUDIES,
         "Set the fastest motion beside Drake and pyroboplan.",
         "timebound rivals --rivals drake --points 20",

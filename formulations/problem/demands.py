@@ -57,6 +57,11 @@ class Demands:
     passages: Array
     cyclic: bool
 
+    @property
+    def plain(self) -> bool:
+        """Whether only waypoints are asked for, from rest to rest, under limits equal in both directions."""
+        return self.conditions.none and self.problem.limits.symmetric
+
     @staticmethod
     def of(problem: Problem, conditions: Conditions | None = None) -> Demands:
         """Collect what a problem asks for.

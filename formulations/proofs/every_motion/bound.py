@@ -21,6 +21,7 @@ from formulations.problem.problem import Problem
 from formulations.problem.size import require_moderate
 from formulations.proofs.certificate import certificate_of
 from formulations.proofs.every_motion.horizons import HorizonSearch
+from formulations.proofs.every_motion.zones import ZoneSearch
 from formulations.proofs.status import BoundStatus
 
 __all__ = ["BoundStatus", "FreeFormBound", "free_form_bound"]
@@ -201,7 +202,8 @@ def free_form_bound(
     require_moderate(problem)
     demands = Demands.of(problem, conditions)
     deadline = Deadline(time_limit, stop)
-    search = HorizonSearch(demands, upper, progress)
+    zones = (demands.waypoints[..., 0] < demands.waypoints[..., 1]).any()
+    search = (ZoneSearch if zones else HorizonSearch)(demands, upper, progress)
     ending = search.run(gap, deadline)
     certificate = None
     if record and search.seconds > 0.0:

@@ -62,7 +62,7 @@ def stop_and_go_durations(problem: Problem) -> Array:
     return np.array(each) * (1.0 + SAFE)
 
 
-def bound_at_top_speed(relaxed: RelaxedProblem) -> float:
+def bound_at_top_speed(relaxed: RelaxedProblem) -> tuple[float, int]:
     """Bound the time of a motion by displacement at top speed, and by the times that are asked for.
 
     Parameters
@@ -71,14 +71,17 @@ def bound_at_top_speed(relaxed: RelaxedProblem) -> float:
 
     Returns
     -------
-    float
-        No motion takes less, waits included, rounded down [s].
+    bound : float [s]
+        No motion takes less, waits included, rounded down.
+    waypoint : int
+        Among those kept: the one whose earliest arrival counts, or 0.
     """
     least = np.maximum(relaxed.least, DOWN * relaxed.at_top_speed)
     after = np.concatenate([np.cumsum(least[::-1])[::-1], [0.0]]) * down(len(least) + 1)
     sooner = np.maximum(relaxed.arrivals[:, 0], 0.0)  # no motion passes a waypoint before
-    whole = float(np.where(after > 0.0, (sooner + after) * DOWN, sooner).max())
-    return (whole + relaxed.waits) * DOWN if relaxed.waits else whole
+    whole = np.where(after > 0.0, (sooner + after) * DOWN, sooner)
+    latest, most = int(whole.argmax()), float(whole.max())
+    return (most + relaxed.waits) * DOWN if relaxed.waits else most, latest
 
 
 def typical_durations(relaxed: RelaxedProblem) -> Array:

@@ -15,49 +15,32 @@ import numpy as np
 
 from formulations.deadlines import Deadline
 from formulations.motion.trajectory import Trajectory
-from formulations.motion.verdict import check
 from formulations.problem.arrays import Array
 from formulations.problem.demands import Demands
-from formulations.proofs.displacement import displacement_bound
-from formulations.proofs.every_motion.attaining_motion.durations import descend
-from formulations.proofs.every_motion.attaining_motion.motion import connect
-from formulations.proofs.every_motion.attaining_motion.states import find_states
-from formulations.proofs.every_motion.closed_forms import (
-    bound_at_top_speed,
-    least_durations,
-    stop_and_go_durations,
-    typical_durations,
-)
+from formulations.proofs.every_motion.attaining_motion.hunt import MotionHunt
+from formulations.proofs.every_motion.beginnings import first_bounds, first_boxes, tangents
+from formulations.proofs.every_motion.closed_forms import bound_at_top_speed
 from formulations.proofs.every_motion.events import bound_with_events
 from formulations.proofs.every_motion.prices import price_limits
-from formulations.proofs.every_motion.relaxation.boxes import Boxes, clipped
-from formulations.proofs.every_motion.relaxation.cuts import Cuts, Kind
+from formulations.proofs.every_motion.relaxation.boxes import Boxes
+from formulations.proofs.every_motion.relaxation.cuts import Cuts
 from formulations.proofs.every_motion.relaxation.linear_program import (
     LinearProgram,
     LPSolution,
     LPStatus,
 )
-from formulations.proofs.every_motion.relaxation.propagation import propagate
 from formulations.proofs.every_motion.relaxation.relaxed_problem import RelaxedProblem
 from formulations.proofs.every_motion.relaxation.rows import Frame
 from formulations.proofs.every_motion.relaxation.tightening import FEW, MANY, tighten
-from formulations.proofs.rest_to_rest import end_to_end_bound
 from formulations.proofs.status import BoundStatus
 
 _BEYOND = 1e-6  # the horizon is longer than the known motion by this, so that the motion is inside
 _FAR = 0.15  # of the bound: the known motion is no horizon while it is farther above
 _AHEAD = 0.1  # of the bound: how far above it the horizon is then
-_ROUNDS = 100  # of cuts
-_TANGENTS = 4  # for each duration to begin with
-_LOOSER = 1e-2  # durations to begin with are looser, so that rows and not boxes carry the bound
-_STRETCHES = (2e-7, 1e-6, 1e-5, 1e-4, 1e-3, 1e-2)  # of durations, tried for a motion
+ROUNDS = 100  # of cuts
 _NEAR = 1e-2  # of the bound: how far above it the horizon of its certificate is at most
-_GUESS = 2.0  # times from rest to rest: how long a motion under conditions may be, to begin with
 _FARTHEST = 1e3  # displacements at top speed: where the search ends if no motion is left
-_TINY = 1e-9  # s, the least unit of a duration
 _BELOW = 1.0 - 2.0**-50  # more than the rounding of one sum
-_FEW_ZONES = 30  # each of them costs a linear program to be left out
-_EQUAL, _COARSE = 1e-6, 1e-5  # of the bound; tolerance of its cuts
 _STALLED = 0.05  # of the way to the horizon: a step that gains less is no progress
 
 
@@ -75,10 +58,8 @@ class HorizonSearch:
     ----------
     bounds : dict of str to float [s]
         The bound by each method.
-    upper : float or None [s]
-        Time of the fastest motion known.
-    motion : Trajectory or None
-        That motion, if it was found here.
+    hunt : MotionHunt
+        The fastest motion known.
     durations : Array or None, shape (n_segments,) [s]
         Durations at the relaxation's optimum.
     savings : Array or None, shape (3, n_segments, dof) [s]
@@ -103,32 +84,26 @@ class HorizonSearch:
         progress : callable or None
             Called as ``progress(bound, upper)`` whenever the relaxation proved a bound.
         """
-        self.demands, self.upper, self.progress = demands, upper, progress
+        self.demands, self.progress = demands, progress
         self.problem = problem = demands.problem
         self.without: frozenset[int] = frozenset()
-        self.plain = problem.plain and demands.conditions.none
-        if self.plain:
-            self.bounds = {
-                "displacement": displacement_bound(problem),
-                "ruckig_end_to_end": end_to_end_bound(problem),
-                "segment": float(least_durations(problem).sum()) * (1.0 - 1e-15 * problem.n_segments),
-            }
-            self.typical = stop_and_go_durations(problem)
-            self.slowest = float(self.typical.sum())
-        else:
-            relaxed = RelaxedProblem.under(demands, np.inf)
-            self.bounds = {"displacement": bound_at_top_speed(relaxed)}
-            self.typical = np.ones(problem.n_segments)
-            self.typical[relaxed.segments] = np.maximum(typical_durations(relaxed), _TINY)
-            whole = float(self.typical[relaxed.segments].sum()) + relaxed.waits
-            self.slowest = _GUESS * max(whole, self.seconds)  # to begin with
+        self.plain = demands.plain
+        self.bounds, self.typical, self.slowest = first_bounds(demands)
         self.cuts = Cuts.none()
-        self.looking = upper is None and self.plain  # whether the search for a motion is worth its time
-        self.attained = np.inf  # by a motion that may leave the position limits [s]
-        self.motion: Trajectory | None = None
+        self.hunt = MotionHunt(problem, upper)
         self.durations: Array | None = None
         self.savings: Array | None = None
         self.rows = 0
+
+    @property
+    def upper(self) -> float | None:
+        """Time of the fastest motion known [s]."""
+        return self.hunt.upper
+
+    @property
+    def motion(self) -> Trajectory | None:
+        """That motion, if it was found here."""
+        return self.hunt.motion
 
     @property
     def seconds(self) -> float:
@@ -156,14 +131,14 @@ class HorizonSearch:
         Ending
         """
         if self.plain and not self.problem.moving_joints:
-            self.upper = 0.0
+            self.hunt.upper = 0.0
             return Ending(BoundStatus.PROVED)
         if not self.seconds > 0.0:
             too_small = "the displacements are too small for floats"
             return Ending(
                 BoundStatus.SIMPLE, too_small if self.plain else "nothing forces it to take time"
             )
-        relaxed = self._relaxed(self.known)
+        relaxed = self.relaxed(self.known)
         if not (np.maximum(relaxed.least, relaxed.at_top_speed) > 0.0).all():
             return Ending(BoundStatus.SIMPLE, "its only two waypoints can coincide")
         if relaxed.cyclic and len(relaxed.least) < 2:
@@ -173,14 +148,34 @@ class HorizonSearch:
                 BoundStatus.SIMPLE, "with a velocity limit alone, displacement is the infimum itself"
             )
         with np.errstate(over="ignore", divide="ignore", invalid="ignore"):
-            self._leave_waypoints_out(gap, deadline)
-            return self._approach(gap, deadline)
+            return self.approach(gap, deadline)
 
-    def _relaxed(self, horizon: float) -> RelaxedProblem:
+    def relaxed(self, horizon: float) -> RelaxedProblem:
+        """Relax the problem, without the waypoints that are left out.
+
+        Parameters
+        ----------
+        horizon : float [s]
+
+        Returns
+        -------
+        RelaxedProblem
+        """
         return RelaxedProblem.under(self.demands, horizon, without=self.without)
 
-    def _approach(self, gap: float, deadline: Deadline) -> Ending:
-        """Try horizon after horizon: a longer one when none of its motions is left, else a shorter one."""
+    def approach(self, gap: float, deadline: Deadline) -> Ending:
+        """Try horizon after horizon: a longer one when none of its motions is left, else a shorter one.
+
+        Parameters
+        ----------
+        gap : float
+            Relative gap to the known motion.
+        deadline : Deadline
+
+        Returns
+        -------
+        Ending
+        """
         ahead, boxes = np.inf, None
         while True:
             horizon = self.known * (1.0 + _BEYOND)
@@ -206,48 +201,19 @@ class HorizonSearch:
             if ahead < gap:
                 return Ending(BoundStatus.TIGHT)
 
-    def _leave_waypoints_out(self, gap: float, deadline: Deadline) -> None:
-        """Leave out zones that a fastest motion passes through on its way, if the bound is no worse for it."""
-        zoned = (self.demands.waypoints[1:-1, :, 0] < self.demands.waypoints[1:-1, :, 1]).any(axis=1)
-        candidates = (np.flatnonzero(zoned) + 1).tolist()
-        if not 0 < len(candidates) <= _FEW_ZONES:
-            return
-        best = self._first_bound(deadline)
-        for waypoint in candidates:
-            if deadline.over or (self.upper is not None and self.upper <= best * (1.0 + gap)):
-                return
-            before, self.without = self.without, self.without | {waypoint}
-            found = self._first_bound(deadline)
-            if found < best * (1.0 - _EQUAL):
-                self.without = before
-            best = max(best, found)
-
-    def _first_bound(self, deadline: Deadline) -> float:
-        """The bound in the first boxes, for the waypoints that are not left out."""
-        relaxed = self._relaxed(self.known)
-        if not (np.maximum(relaxed.least, relaxed.at_top_speed) > 0.0).all():
-            return 0.0
-        boxes = self._boxes(relaxed, None)
-        if boxes.empty:
-            return self.known
-        frame = Frame(relaxed, boxes, self.typical[relaxed.segments])
-        program = LinearProgram(frame, _tangents(boxes.durations))
-        found = program.solve(frame.cost, rounds=_ROUNDS, tolerance=_COARSE, deadline=deadline)
-        return min(found.bound, relaxed.horizon) + relaxed.waits
-
     def _within(
         self, horizon: float, boxes: Boxes | None, gap: float, deadline: Deadline
     ) -> tuple[Ending | None, Boxes]:
         """Bound all motions of at most ``horizon`` seconds, in narrower and narrower boxes."""
-        relaxed = self._relaxed(horizon)
-        boxes = self._boxes(relaxed, boxes)
+        relaxed = self.relaxed(horizon)
+        boxes = first_boxes(self.demands, relaxed, boxes)
         typical = self.typical[relaxed.segments]
         tolerance = min(max(1e-3 * gap, 1e-9), 1e-7)
         stalled, rounds = False, FEW
         while not boxes.empty:
             frame = Frame(relaxed, boxes, typical)
-            program = LinearProgram(frame, Cuts.joined([_tangents(boxes.durations), self.cuts]))
-            solution = program.solve(frame.cost, rounds=_ROUNDS, tolerance=tolerance, deadline=deadline)
+            program = LinearProgram(frame, Cuts.joined([tangents(boxes.durations), self.cuts]))
+            solution = program.solve(frame.cost, rounds=ROUNDS, tolerance=tolerance, deadline=deadline)
             before = self.seconds
             if solution.empty:
                 break
@@ -258,10 +224,12 @@ class HorizonSearch:
                 return Ending(BoundStatus.SOLVER_FAILED, _why(solution)), boxes
             typical = solution.x[frame.T] * typical
             self.typical[relaxed.segments], self.cuts = typical, program.cuts
-            self._look_for_motion(typical, program.cuts, gap, deadline)
-            if self._met(gap):
+            if self.plain:
+                of_bound = {"bound": self.seconds, "gap": gap}
+                self.hunt.look(typical, program.cuts, **of_bound, deadline=deadline)
+            if self.met(gap):
                 return Ending(BoundStatus.PROVED), boxes
-            if self._tight(gap):
+            if self.hunt.attained <= self.seconds * (1.0 + gap):
                 return Ending(BoundStatus.TIGHT), boxes
             if deadline.over:
                 return _out_of_time(deadline), boxes
@@ -276,24 +244,7 @@ class HorizonSearch:
             stalled, rounds = stuck and rounds == MANY, MANY if stuck else rounds
             boxes = narrower
         self._improve(horizon)
-        return (Ending(BoundStatus.PROVED) if self._met(gap) else None), boxes
-
-    def _boxes(self, relaxed: RelaxedProblem, boxes: Boxes | None) -> Boxes:
-        """The first boxes for a horizon: from those of a longer one, if there are any."""
-        if boxes is None:
-            least = relaxed.at_top_speed
-            if self.plain:
-                least = np.maximum(least_durations(self.problem)[relaxed.segments], least)
-            least = np.maximum(least * (1.0 - _LOOSER), relaxed.least)
-            boxes = Boxes.around(relaxed, least, relaxed.most)
-        durations = boxes.durations.copy()
-        # no duration is longer than what the least durations of the others leave
-        others = durations[:, 0].sum() - durations[:, 0]
-        durations[:, 1] = np.minimum(durations[:, 1], relaxed.horizon * (1.0 + 1e-12) - others)
-        empty = bool((durations[:, 0] > durations[:, 1]).any())
-        return propagate(
-            relaxed, clipped(relaxed, Boxes(durations, boxes.accelerations, boxes.offsets, empty))
-        )
+        return (Ending(BoundStatus.PROVED) if self.met(gap) else None), boxes
 
     def certify(self, deadline: Deadline) -> tuple[float, float, list[list[Any]]]:
         """Prove a bound near the best one again, so that a checker can follow it.
@@ -312,12 +263,12 @@ class HorizonSearch:
         """
         least = self.bounds["displacement"] * (1.0 - 1e-12)
         horizon = min(self.known * (1.0 + _BEYOND), self.seconds * (1.0 + _NEAR))
-        joints = self._relaxed(horizon).joints
+        joints = self.relaxed(horizon).joints
         if not len(joints) or not self.seconds > least * (1.0 + 1e-9):
             return least, least, self._without_rows
         with np.errstate(over="ignore", divide="ignore", invalid="ignore"):
             bound, events = bound_with_events(
-                self._relaxed(horizon),
+                self.relaxed(horizon),
                 horizon,
                 self.seconds * (1.0 - 1e-8),
                 self.cuts,
@@ -332,9 +283,25 @@ class HorizonSearch:
     @property
     def _without_rows(self) -> list[list[Any]]:
         """Events that prove displacement at top speed: of a plain problem the checker does so by itself."""
-        return [] if self.plain else [["P"], ["F", []]]
+        if self.plain:
+            return []
+        relaxed = RelaxedProblem.under(self.demands, np.inf, without=self.without)
+        latest = bound_at_top_speed(relaxed)[1]
+        rows = [["b", int(relaxed.waypoints[latest]), (1.0).hex()]] if latest else []
+        return [["P"], ["F", rows]]
 
-    def _met(self, gap: float) -> bool:
+    def met(self, gap: float) -> bool:
+        """Say whether the known motion is as near to the bound as is asked for.
+
+        Parameters
+        ----------
+        gap : float
+            Relative.
+
+        Returns
+        -------
+        bool
+        """
         return self.upper is not None and self.upper <= self.seconds * (1.0 + gap)
 
     def _improve(self, bound: float) -> None:
@@ -358,46 +325,6 @@ class HorizonSearch:
             )
         self._improve(bound)
 
-    def _look_for_motion(self, durations: Array, cuts: Cuts, gap: float, deadline: Deadline) -> None:
-        """Try for a motion with the relaxation's durations, slightly stretched; then with durations nearby."""
-        if not self.plain:
-            return
-        for local in (False, True):
-            if local:
-                if not self.looking:
-                    return
-                durations, cuts = descend(self.problem, durations, cuts, deadline)
-            for stretch in _STRETCHES[: 4 if self.looking and not local else None]:
-                if self._met(gap) or self._tight(gap):
-                    return
-                if self._try(durations * (1.0 + stretch), cuts, deadline):
-                    self.looking = False
-                    return
-
-    def _try(self, durations: Array, cuts: Cuts, deadline: Deadline) -> bool:
-        """Whether a longer stretch is pointless; a motion that passes the check and is fastest is kept."""
-        total = float(durations.sum())
-        if self.upper is not None and total >= self.upper:
-            return True
-        states = find_states(self.problem, durations, cuts, deadline)
-        if states is None:
-            return False
-        motion = connect(self.problem, durations, states)
-        if motion is None:
-            self.attained = min(self.attained, total)
-            return False
-        verdict = check(self.problem, motion)
-        done = verdict.feasible or not verdict.position_kept  # no stretch changes the positions
-        if done:
-            self.attained = min(self.attained, total)
-        if verdict.feasible:
-            self.motion, self.upper = motion, verdict.seconds
-        return done
-
-    def _tight(self, gap: float) -> bool:
-        """Whether a motion, perhaps outside the position limits, shows that the relaxation proves no more."""
-        return self.attained <= self.seconds * (1.0 + gap)
-
 
 def _why(solution: LPSolution) -> str:
     if solution.status == LPStatus.REFUSED or solution.reason == "Not Set":
@@ -407,9 +334,3 @@ def _why(solution: LPSolution) -> str:
 
 def _out_of_time(deadline: Deadline) -> Ending:
     return Ending(BoundStatus.INTERRUPTED if deadline.interrupted else BoundStatus.TIME_LIMIT)
-
-
-def _tangents(durations: Array) -> Cuts:
-    """Tangents of 1 / T at durations that are even in the logarithm of T."""
-    at = np.geomspace(durations[:, 0], durations[:, 1], _TANGENTS)
-    return Cuts.of(Kind.TANGENT, np.tile(np.arange(len(durations)), _TANGENTS), at.ravel())

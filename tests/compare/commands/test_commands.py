@@ -124,6 +124,7 @@ BAD = {
     "tune": (["--trials", "0"], "--trials: 0 is not positive"),
     "proofs": (["--each", "two"], '--each: unable to convert "two" into int'),
     "speed": (["--case", "bagging"], "--case: the papers' 14x14 matrix is 3-5-3's, bagging is 4-3-4"),
+    "condition_gaps": (["--count", "0"], "--count"),
     "free_form_study": (["--solver", "x"], '--solver: Invalid value "x"'),
     "rivals": (["--rivals", "pilz"], "--rivals: 'pilz' is not known (known: drake, pyroboplan)"),
 }

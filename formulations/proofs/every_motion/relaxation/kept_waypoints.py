@@ -30,7 +30,7 @@ def kept_waypoints(demands: Demands, without: frozenset[int] = frozenset()) -> I
     Indices, shape (K + 1,)
         Empty where a plain problem has no displacement.
     """
-    if demands.problem.plain and demands.conditions.none:
+    if demands.plain:
         moving = np.flatnonzero((demands.problem.displacements != 0.0).any(axis=1))
         return np.append(moving, moving[-1:] + 1)
     last = len(demands.waits) - 1

@@ -239,7 +239,18 @@ class _Between:
 
 
 def down(terms: int) -> float:
-    """A factor that makes a sum of so many positive terms less than their exact sum."""
+    """Compute a factor that makes a sum of floats less than their exact sum.
+
+    Parameters
+    ----------
+    terms : int
+        How many positive terms are added up.
+
+    Returns
+    -------
+    float
+        Just below 1.
+    """
     return 1.0 - (terms + 1) * 2.0**-52
 
 

@@ -7,7 +7,10 @@ from dataclasses import replace
 
 import numpy as np
 import pytest
+from hypothesis import given, settings
+from hypothesis import strategies as st
 
+from compare.check_certificate.verify import verify
 from formulations import Conditions, InputError, Limits, Problem, free_form, free_form_bound, load
 
 UR5 = load("ur5")
@@ -56,6 +59,80 @@ def test_a_running_start_and_a_running_end() -> None:
     truth = 2.0 * (math.sqrt(100.0 + A) - 10.0) / A  # speeds up for half of the way, then slows down
     assert bound.seconds <= truth < free_form_bound(ONE).seconds
     assert bound.seconds == pytest.approx(truth, rel=1e-6)
+
+
+def at(waypoint: int, distance: float) -> dict[int, np.ndarray]:
+    return {waypoint: np.array([distance])}
+
+
+FAR = Problem.of([[0.0], [1.0]], ONE.limits)
+THERE_AND_BACK = Problem.of([[0.0], [1.0], [0.0]], ONE.limits)
+UNEVEN = Limits.of(velocity=100.0, acceleration=[[-4.0, 2.0]], dof=1)
+EXACT = {
+    "a zone at the end": (FAR, Conditions(tolerance=at(1, 0.2)), rest_to_rest(0.8)),
+    "zones at both ends": (FAR, Conditions(tolerance={**at(0, 0.1), **at(1, 0.2)}), rest_to_rest(0.7)),
+    "a zone on the way": (ONE, Conditions(tolerance=at(1, 0.1)), rest_to_rest(1.0)),
+    "a zone where it turns": (THERE_AND_BACK, Conditions(tolerance=at(1, 0.3)), 2 * rest_to_rest(0.7)),
+    "a wait": (ONE, Conditions(waits={1: 0.5}), rest_to_rest(0.25) + 0.5 + rest_to_rest(0.75)),
+    "a late window": (FAR, Conditions(windows={1: (3.0, 9.0)}), 3.0),
+    "a least time": (FAR, Conditions(segment_times={0: (3.0, math.inf)}), 3.0),
+    "a free end": (FAR, Conditions(end_velocity="free"), math.sqrt(2.0 * 1.0 / A)),
+    "free at both ends": (FAR, Conditions(start_velocity="free", end_velocity="free"), 1.0 / 100.0),
+    "a cycle": (THERE_AND_BACK, Conditions(cyclic=True), 4.0 * math.sqrt(2.0 * 0.5 / A)),
+    "two directions": (
+        Problem.of([[0.0], [1.0]], UNEVEN),
+        Conditions(),
+        math.sqrt(2.0 * (1.0 / 2.0 + 1.0 / 4.0)),
+    ),
+}
+
+
+@pytest.mark.parametrize("name", EXACT)
+def test_one_joint_in_closed_form(name: str) -> None:
+    """The bound is the least time itself, and the checker proves it again."""
+    problem, asked, truth = EXACT[name]
+    bound = free_form_bound(problem, conditions=asked, gap=1e-7, upper=truth, record=True)
+    assert bound.seconds <= truth * (1.0 + 1e-12)
+    assert bound.seconds == pytest.approx(truth, rel=1e-6)
+    assert float.fromhex(bound.certificate["seconds"]) == pytest.approx(truth, rel=1e-6)
+    assert "takes" in verify(bound.certificate)
+
+
+def test_a_problem_carries_its_conditions() -> None:
+    asked = Conditions(waits={1: 0.5})
+    carried = free_form_bound(replace(ONE, conditions=asked), gap=1e-6)
+    assert carried.seconds == free_form_bound(ONE, conditions=asked, gap=1e-6).seconds
+    assert (
+        carried.seconds
+        > free_form_bound(replace(ONE, conditions=asked), conditions=Conditions()).seconds
+    )
+
+
+@given(
+    seed=st.integers(0, 10**6),
+    key=st.sampled_from(["tolerance", "windows", "segment_times", "waits", "limits"]),
+)
+@settings(max_examples=12, deadline=None)
+def test_a_motion_that_keeps_more_is_no_faster_than_the_bound_of_less(seed: int, key: str) -> None:
+    rng = np.random.default_rng(seed)
+    limits = Limits.of(velocity=2.0, acceleration=5.0, jerk=30.0, dof=2)
+    problem = Problem.of(rng.uniform(-1.0, 1.0, (3, 2)), limits)
+    size = float(rng.uniform(0.05, 0.6))
+    strict, loose = {
+        "tolerance": [Conditions(tolerance={1: np.full(2, x)}) for x in (size / 2, size)],
+        "windows": [Conditions(windows={1: (x, math.inf)}) for x in (3 * size, 2 * size)],
+        "segment_times": [Conditions(segment_times={1: (x, math.inf)}) for x in (3 * size, 2 * size)],
+        "waits": [Conditions(waits={1: x}) for x in (size, size / 2)],
+        "limits": [Conditions(segment_limits={0: slower(limits, x)}) for x in (size, (1 + size) / 2)],
+    }[key]
+    motion = free_form(problem, conditions=strict)
+    bound = free_form_bound(problem, conditions=loose, upper=motion.seconds, time_limit=2.0)
+    assert bound.least_verified <= motion.seconds
+    assert free_form(problem, conditions=loose).seconds <= motion.seconds * (1.0 + 1e-3)
+
+
+def slower(limits: Limits, factor: float) -> Limits:
+    return replace(limits, velocity=factor * limits.velocity)
 
 
 @pytest.mark.parametrize(

@@ -68,7 +68,9 @@ def framed(made: Scenario, stretch: float) -> Frame | None:
     least = np.maximum(relaxed.least, relaxed.at_top_speed)
     if not len(relaxed.joints) or not (least > 0.0).all() or (relaxed.cyclic and len(least) < 2):
         return None
-    assert bound_at_top_speed(RelaxedProblem.under(demands, np.inf)) <= made.arrivals[-1] * (1 + 1e-12)
+    assert bound_at_top_speed(RelaxedProblem.under(demands, np.inf))[0] <= made.arrivals[-1] * (
+        1 + 1e-12
+    )
     if (np.diff(made.arrivals[relaxed.waypoints]) > 1e4 * least).any():
         return None  # the zones all but meet, and rounding of the motion is not small any more
     most = np.minimum(relaxed.most, relaxed.horizon - (least.sum() - least))

@@ -1,0 +1,368 @@
+"""How near motions under conditions come to their bounds: behind ``timebound condition_gaps``.
+
+Of each condition random problems are drawn, with one to three joints, three to five waypoints, and a jerk
+limit in four of five. A motion is found and judged by the independent check, its bound is proved, and the
+certificate of the bound is proved again by the checker.
+"""
+
+from __future__ import annotations
+
+import time
+from collections.abc import Callable
+from dataclasses import asdict, dataclass
+from typing import Any
+
+import numpy as np
+
+from compare.check_certificate.answers import BadInput, Refused
+from compare.check_certificate.verify import verify
+from compare.screen import table
+from compare.studies.study import Call, Study
+from formulations import (
+    Conditions,
+    Limits,
+    NoFeasibleMotion,
+    Problem,
+    check,
+    free_form,
+    free_form_bound,
+)
+from formulations.problem.arrays import Array
+
+_TIME_LIMIT = 20.0  # s for a proof
+_GAP = 5e-5  # asked for
+
+
+@dataclass(frozen=True)
+class Drawn:
+    """A random problem to which a condition is added."""
+
+    rng: np.random.Generator
+    waypoints: Array
+    velocity: Array
+    acceleration: Array
+    jerk: Any
+
+    @property
+    def dof(self) -> int:
+        """Number of joints."""
+        return int(self.waypoints.shape[1])
+
+    @property
+    def last(self) -> int:
+        """Number of the last waypoint."""
+        return len(self.waypoints) - 1
+
+    def inner(self) -> int:
+        """Draw an inner waypoint."""
+        return int(self.rng.integers(1, self.last))
+
+    def limits(self, share: float = 1.0) -> Limits:
+        """Return the limits, velocity and acceleration times a share.
+
+        Parameters
+        ----------
+        share : float
+
+        Returns
+        -------
+        Limits
+        """
+        return Limits.of(share * self.velocity, share * self.acceleration, self.jerk, dof=self.dof)
+
+    def problem(self, conditions: Conditions, limits: Limits | None = None) -> Problem:
+        """Return the problem under a condition.
+
+        Parameters
+        ----------
+        conditions : Conditions
+        limits : Limits, optional
+            In place of those drawn.
+
+        Returns
+        -------
+        Problem
+        """
+        return Problem(self.waypoints, limits or self.limits(), conditions=conditions)
+
+
+def _zones(d: Drawn) -> Problem:
+    zones = {k: d.rng.uniform(0.02, 0.3, d.dof) for k in range(1, d.last + 1)}
+    return d.problem(Conditions(tolerance=zones))
+
+
+def _window(d: Drawn) -> Problem:
+    early = d.rng.uniform(0.5, 6.0)
+    waypoint = int(d.rng.integers(1, d.last + 1))
+    return d.problem(Conditions(windows={waypoint: (early, 20.0 + early)}))
+
+
+def _least_time(d: Drawn) -> Problem:
+    segment = int(d.rng.integers(0, d.last))
+    return d.problem(Conditions(segment_times={segment: (d.rng.uniform(0.5, 3.0), np.inf)}))
+
+
+def _wait(d: Drawn) -> Problem:
+    return d.problem(Conditions(waits={d.inner(): float(d.rng.uniform(0.1, 1.0))}))
+
+
+def _cycle(d: Drawn) -> Problem:
+    d.waypoints[-1] = d.waypoints[0]
+    return d.problem(Conditions(cyclic=True))
+
+
+def _given_ends(d: Drawn) -> Problem:
+    start, end = (d.rng.uniform(-0.5, 0.5, d.dof) * d.velocity for _ in range(2))
+    return d.problem(Conditions(start_velocity=start, end_velocity=end))
+
+
+def _free_end(d: Drawn) -> Problem:
+    return d.problem(Conditions(end_velocity="free", end_acceleration="free"))
+
+
+def _segment_limits(d: Drawn) -> Problem:
+    segment, share = int(d.rng.integers(0, d.last)), d.rng.uniform(0.2, 1.0)
+    return d.problem(Conditions(segment_limits={segment: d.limits(share)}))
+
+
+def _two_directions(d: Drawn) -> Problem:
+    pairs = [
+        np.stack([-limit * d.rng.uniform(0.3, 1.0, d.dof), limit], axis=1)
+        for limit in (d.velocity, d.acceleration)
+    ]
+    limits = Limits.of(pairs[0], pairs[1], d.jerk, dof=d.dof)
+    return d.problem(Conditions(), limits)
+
+
+KINDS: dict[str, Callable[[Drawn], Problem]] = {
+    "zones": _zones,
+    "window": _window,
+    "least time": _least_time,
+    "wait": _wait,
+    "cycle": _cycle,
+    "given ends": _given_ends,
+    "free end": _free_end,
+    "segment limits": _segment_limits,
+    "two directions": _two_directions,
+}
+
+
+@dataclass(frozen=True)
+class ConditionAnswer:
+    """One problem: times [s] of the motion, None where none was found, and of the bound.
+
+    certified: the bound that the checker has proved again [s]. runtime, proof: for the motion and for
+    the bound [s].
+    """
+
+    kind: str
+    seed: int
+    joints: int
+    segments: int
+    seconds: float | None
+    feasible: bool
+    bound: float
+    certified: float | None
+    status: str
+    runtime: float
+    proof: float
+
+    @property
+    def gap(self) -> float:
+        """Seconds over the bound, minus 1; infinite without a motion."""
+        return np.inf if self.seconds is None else self.seconds / self.bound - 1.0
+
+
+def drawn_problem(kind: str, seed: int) -> Problem:
+    """Draw a problem under a condition.
+
+    Parameters
+    ----------
+    kind : str
+        A key of ``KINDS``.
+    seed : int
+        The same seed draws the same problem.
+
+    Returns
+    -------
+    Problem
+    """
+    rng = np.random.default_rng(seed)
+    waypoints = rng.uniform(-1.5, 1.5, (int(rng.integers(3, 6)), int(rng.integers(1, 4))))
+    dof = waypoints.shape[1]
+    jerk = rng.uniform(10.0, 60.0, dof) if rng.random() < 0.8 else np.inf
+    velocity, acceleration = (
+        np.asarray(rng.uniform(1.0, 3.0, dof)),
+        np.asarray(rng.uniform(2.0, 8.0, dof)),
+    )
+    return KINDS[kind](Drawn(rng, waypoints, velocity, acceleration, jerk))
+
+
+def answered(kind: str, seed: int) -> list[ConditionAnswer]:
+    """Find a motion under a condition, bound it, and prove the bound again.
+
+    Parameters
+    ----------
+    kind : str
+        A key of ``KINDS``.
+    seed : int
+        Of the problem.
+
+    Returns
+    -------
+    list of ConditionAnswer
+        One row.
+    """
+    problem = drawn_problem(kind, seed)
+    started = time.perf_counter()
+    try:
+        motion = free_form(problem, tolerance=1e-4).trajectory
+    except NoFeasibleMotion:
+        motion = None
+    runtime = time.perf_counter() - started
+    feasible = motion is not None and check(problem, motion).feasible
+    seconds = motion.seconds if motion is not None and feasible else None
+    bound = free_form_bound(problem, gap=_GAP, upper=seconds, time_limit=_TIME_LIMIT, record=True)
+    try:
+        certified = _proved_again(bound.certificate)
+    except (BadInput, Refused):
+        certified = None
+    return [
+        ConditionAnswer(
+            kind,
+            seed,
+            problem.dof,
+            problem.n_segments,
+            seconds,
+            feasible,
+            bound.seconds,
+            certified,
+            bound.ending,
+            runtime,
+            bound.runtime,
+        )
+    ]
+
+
+def _proved_again(certificate: dict[str, Any] | None) -> float | None:
+    if certificate is None:
+        return None
+    verify(certificate)
+    return float.fromhex(certificate["seconds"])
+
+
+def calls(count: int, kinds: tuple[str, ...] = tuple(KINDS)) -> list[Call]:
+    """List the calls of the study.
+
+    Parameters
+    ----------
+    count : int
+        Problems of each condition.
+    kinds : tuple of str
+        Keys of ``KINDS``.
+
+    Returns
+    -------
+    list of tuples
+        Arguments of ``answered``.
+    """
+    return [(kind, seed) for kind in kinds for seed in range(count)]
+
+
+@dataclass(frozen=True)
+class ConditionSummary:
+    """What matters of the problems of one condition.
+
+    near: gap of at most 1e-4. below: motions faster than their bound. certified: bounds that the checker
+    proved again to within 1e-3. gap, runtime, proof: median and largest.
+    """
+
+    kind: str
+    problems: int
+    found: int
+    near: int
+    below: int
+    certified: int
+    gap: tuple[float, float]
+    runtime: tuple[float, float]
+    proof: tuple[float, float]
+
+
+def summarise(answers: list[ConditionAnswer]) -> list[dict[str, Any]]:
+    """Sum the problems of each condition up.
+
+    Parameters
+    ----------
+    answers : list of ConditionAnswer
+        All rows.
+
+    Returns
+    -------
+    list of dict
+        A ``ConditionSummary`` each.
+    """
+    found = []
+    for kind in dict.fromkeys(a.kind for a in answers):
+        mine = [a for a in answers if a.kind == kind]
+        found.append(
+            asdict(
+                ConditionSummary(
+                    kind,
+                    len(mine),
+                    sum(a.seconds is not None for a in mine),
+                    sum(a.gap <= 1e-4 for a in mine),
+                    sum(a.gap < -1e-9 for a in mine),
+                    sum(
+                        a.certified is not None and a.certified >= a.bound * (1.0 - 1e-3) for a in mine
+                    ),
+                    _spread([a.gap for a in mine]),
+                    _spread([a.runtime for a in mine]),
+                    _spread([a.proof for a in mine]),
+                )
+            )
+        )
+    return found
+
+
+def _spread(values: list[float]) -> tuple[float, float]:
+    return float(np.median(values)), max(values)
+
+
+def as_text(answers: list[ConditionAnswer], summary: list[dict[str, Any]]) -> str:
+    """Show a line per condition, and one per problem with a gap above 1e-4.
+
+    Parameters
+    ----------
+    answers : list of ConditionAnswer
+        All rows.
+    summary : list of dict
+        Of ``summarise``.
+
+    Returns
+    -------
+    str
+    """
+    header = ["condition", "problems", "found", "gap <= 1e-4", "below bound", "certified"]
+    header += ["median gap", "largest", "motion [s]", "proof [s]"]
+    rows = [
+        [
+            s.kind, str(s.problems), str(s.found), str(s.near), str(s.below), str(s.certified),
+            f"{s.gap[0]:.1e}", f"{s.gap[1]:.1e}", f"{s.runtime[0]:.2f}", f"{s.proof[0]:.2f}",
+        ]
+        for s in (ConditionSummary(**entry) for entry in summary)
+    ]  # fmt: skip
+    text = table(header, rows, right=tuple(range(1, 10)))
+    far = [a for a in answers if not a.gap <= 1e-4]
+    if far:
+        lines = [f"{a.kind}, seed {a.seed}: gap {a.gap:.1e} ({a.status})" for a in far]
+        text += "\n\nabove 1e-4:\n" + "\n".join(lines)
+    return text
+
+
+STUDY = Study(
+    name="condition_gaps",
+    row=ConditionAnswer,
+    compute=answered,
+    summarise=summarise,
+    text=as_text,
+)
