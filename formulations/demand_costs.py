@@ -160,8 +160,10 @@ def demand_costs(
         return ()
     say = progress or (lambda what: None)
     whole = solved(problem, deadline, found)
+    if whole is None:
+        return ()
     costs = []
-    for one in left_out if whole is not None else ():
+    for one in left_out:
         if deadline.over:
             break
         say(one.what)
