@@ -11,8 +11,8 @@ from dataclasses import dataclass, replace
 
 import numpy as np
 
+from formulations.costs.demand_costs import DemandCost
 from formulations.deadlines import NEVER, Deadline
-from formulations.demand_costs import DemandCost
 from formulations.motion.verdict import QUANTITIES
 from formulations.optima.free_form import FreeForm, SearchStatus, free_form
 from formulations.problem.arrays import Array

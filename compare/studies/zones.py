@@ -14,7 +14,7 @@ from compare.report.style import BLUE, GREEN, GREY, ORANGE, PURPLE, VERMILION, s
 from compare.screen import table
 from compare.studies.study import Call, Study
 from formulations import Conditions, Problem, load
-from formulations.demand_costs import SolvedTask, solved
+from formulations.costs.demand_costs import SolvedTask, solved
 
 _MARKS = ((BLUE, "o"), (ORANGE, "s"), (GREEN, "D"), (VERMILION, "^"), (PURPLE, "v"), (GREY, "X"))
 

@@ -9,11 +9,13 @@ from typing import Any
 
 from formulations import InputError, Ladder, Problem, ladder
 from formulations.climb import RungResult
+from formulations.costs.demand_costs import demand_costs
 from formulations.deadlines import Deadline
-from formulations.demand_costs import demand_costs
 from formulations.diagnosis import Diagnosis, diagnose
 from formulations.rungs import LARGE, usual_rungs, with_needs
 from formulations.rungs import without as leave_out
+
+_COSTS = 60.0  # s for what the demands cost: each of many takes as long as the motion itself
 
 
 def chosen_rungs(
@@ -92,7 +94,7 @@ def climb(
     costs = demand_costs(
         problem,
         found=answer.free_form,
-        deadline=deadline,
+        deadline=deadline.within(_COSTS),
         progress=lambda what: stage(f"what a motion takes without {what}"),
     )
     if problem.conditions.total is not None:

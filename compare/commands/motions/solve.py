@@ -27,6 +27,7 @@ from compare.interrupts import ctrl_c_stops
 from compare.report.asked_words import sentences
 from compare.screen import show, stages, table
 from formulations import RUNGS, InputError, Ladder, Problem
+from formulations.costs.demand_costs import count_demands
 from formulations.deadlines import Deadline
 from formulations.optima.at_rate.export import check_export, export_motion
 from formulations.problem.toml_file.plain_conditions import asked_as_json
@@ -93,8 +94,12 @@ def solve(
     ]
     if held is not None and held.holds:
         text += ["\nwhat limits the fastest motion", *(f"  {line}" for line in held.lines()[:_LINES])]
-    if held is not None and held.costs:
+    if held is not None and (demands := count_demands(problem)):
         text += ["\nwhat each demand costs", *(f"  {cost.line}" for cost in held.costs)]
+        if (known := len(held.costs)) < demands:
+            text.append(
+                f"  known of {known} of {demands}: time ended the search, or none is to be compared"
+            )
     diagnosis = None if held is None else held.to_json()
     show("\n".join(text), {**answer.to_json(), **asked_as_json(problem), "diagnosis": diagnosis}, json)
     say = sys.stderr if json == "-" else sys.stdout

@@ -2,18 +2,17 @@
 
 The motion gives the estimate, motion and bound of both tasks the interval that is proved. What widens the
 choice of motions, such as a zone, is asked the other way round: what it saves.
-
-A new kind of demand is one more function in ``_LEFT_OUT``.
 """
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterable, Iterator, Mapping
+from collections.abc import Callable
 from dataclasses import dataclass, replace
 from typing import Any, NamedTuple
 
 import numpy as np
 
+from formulations.costs.left_out import left_out
 from formulations.deadlines import NEVER, Deadline
 from formulations.optima.free_form import FreeForm, SearchStatus, free_form
 from formulations.problem.conditions import Conditions
@@ -22,6 +21,7 @@ from formulations.problem.problem import Problem
 from formulations.proofs.every_motion.bound import FreeFormBound, free_form_bound
 
 _GAP, _PROOF = 1e-4, 20.0  # of each motion and its bound; s for one bound
+_MANY = ("all zones", "the limits")  # subjects that are plural
 _NOTHING = 1e-5  # s
 _CUT_SHORT = (SearchStatus.TIME_LIMIT, SearchStatus.INTERRUPTED)
 
@@ -33,8 +33,8 @@ class DemandCost:
     Attributes
     ----------
     demand : str
-        Its kind: "zone", "window", "passage", "least time", "greatest time", "wait", "stop",
-        "segment limits", "start state", "end state", "cycle", "total" or "asymmetric limit".
+        Its kind: "zones" (all of them), "zone", "window", "passage", "least time", "greatest time",
+        "wait", "stop", "segment limits", "start state", "end state", "cycle", "total" or "asymmetric limit".
     what : str
         The demand in words; waypoints and segments count from 1.
     place : int or None
@@ -58,7 +58,7 @@ class DemandCost:
     @property
     def line(self) -> str:
         """The cost in one sentence."""
-        verb = "saves" if self.saves else "costs"
+        verb = ("save" if self.saves else "cost") + ("" if self.what.startswith(_MANY) else "s")
         most = _digits(self.greatest, up=True)
         if self.greatest < _NOTHING:
             return f"{self.what} {verb} nothing (proved: at most {most} s)"
@@ -72,15 +72,18 @@ class DemandCost:
         return {**vars(self), "place": place, "greatest": greatest}
 
 
-class _Without(NamedTuple):
-    """One demand, and the task without it."""
+def count_demands(problem: Problem) -> int:
+    """Count the demands of a problem that ``demand_costs`` knows how to leave out.
 
-    demand: str
-    what: str
-    place: int | None
-    saves: bool
-    problem: Problem
-    conditions: Conditions
+    Parameters
+    ----------
+    problem : Problem
+
+    Returns
+    -------
+    int
+    """
+    return sum(1 for _ in left_out(problem))
 
 
 class SolvedTask(NamedTuple):
@@ -155,15 +158,15 @@ def demand_costs(
     """
     asked = problem.conditions if conditions is None else conditions
     problem = replace(problem, conditions=asked)
-    left_out = list(_demands(problem))
-    if not left_out or deadline.over:
+    demands = list(left_out(problem))
+    if not demands or deadline.over:
         return ()
     say = progress or (lambda what: None)
     whole = solved(problem, deadline, found)
     if whole is None:
         return ()
     costs = []
-    for one in left_out:
+    for one in demands:
         if deadline.over:
             break
         say(one.what)
@@ -219,104 +222,6 @@ def solved(
     bound = proof.least_verified
     fixed = problem.conditions.times(problem).get(problem.n_segments)
     return SolvedTask(motion.seconds, bound if fixed is None else max(bound, fixed))
-
-
-def _demands(problem: Problem) -> Iterator[_Without]:
-    asked = problem.conditions
-    if problem.n_segments in asked.times(problem):
-        less = asked.without_total(problem)
-        yield _Without("total", "the given total time", None, False, problem, less)
-        return
-    for kind in _LEFT_OUT:
-        yield from kind(problem)
-
-
-def _of_waypoints(problem: Problem) -> Iterator[_Without]:
-    asked, last = problem.conditions, problem.n_segments
-    kinds = (
-        ("zone", "the zone of", "tolerance", True),
-        ("window", "the window of", "windows", False),
-        ("passage", "the passage time of", "passage", False),
-    )
-    for demand, words, key, saves in kinds:
-        given: Mapping[int, Any] = getattr(asked, key)
-        ends = (0, last) if asked.cyclic and demand == "zone" else ()  # they are one waypoint
-        for k in sorted(given):
-            if k == last and ends:
-                continue
-            gone = set(ends) if k in ends else {k}
-            rest: dict[str, Any] = {key: _less(given, gone)}
-            less = replace(asked, **rest)
-            yield _Without(demand, f"{words} waypoint {k + 1}", k, saves, problem, less)
-    for k in sorted(asked.waits):
-        less = replace(asked, waits=_less(asked.waits, {k}))
-        yield _Without("wait", f"the wait at waypoint {k + 1}", k, False, problem, less)
-    for k in sorted(asked.stops - set(asked.waits) - (set() if asked.cyclic else {0, last})):
-        less = replace(asked, stops=asked.stops - {k})
-        yield _Without("stop", f"the stop at waypoint {k + 1}", k, False, problem, less)
-
-
-def _of_segments(problem: Problem) -> Iterator[_Without]:
-    asked = problem.conditions
-    for k, (least, greatest) in sorted(asked.segment_times.items()):
-        others = _less(asked.segment_times, {k})
-        for demand, there, rest in (
-            ("least time", least > 0.0, (0.0, greatest)),
-            ("greatest time", np.isfinite(greatest), (least, np.inf)),
-        ):
-            if there:
-                less = replace(asked, segment_times={**others, k: rest})
-                yield _Without(demand, f"the {demand} of segment {k + 1}", k, False, problem, less)
-    for k in sorted(asked.segment_limits):
-        less = replace(asked, segment_limits=_less(asked.segment_limits, {k}))
-        yield _Without("segment limits", f"segment {k + 1}'s own limits", k, False, problem, less)
-
-
-def _of_ends(problem: Problem) -> Iterator[_Without]:
-    """States at the ends: those given cost against free ones, free ones save against rest."""
-    asked = problem.conditions
-    for end in ("start", "end"):
-        for quantity in ("velocity", "acceleration"):
-            key = f"{end}_{quantity}"
-            value = getattr(asked, key)
-            if value is None:
-                continue
-            free = isinstance(value, str)
-            what = f"the {'free' if free else 'given'} {quantity} at the {end}"
-            other: dict[str, Any] = {key: None if free else "free"}
-            less = replace(asked, **other)
-            yield _Without(f"{end} state", what, None, free, problem, less)
-    if asked.cyclic:
-        less = replace(asked, cyclic=False)
-        yield _Without("cycle", "going round without a halt", None, True, problem, less)
-
-
-def _of_directions(problem: Problem) -> Iterator[_Without]:
-    """Limits that differ between the directions, against the greater one in both."""
-    limits = problem.limits
-    for quantity in ("velocity", "acceleration"):
-        interval = getattr(limits, f"{quantity}_interval")
-        for j in () if interval is None else np.flatnonzero(interval.sum(axis=1) != 0.0).tolist():
-            even = interval.copy()
-            even[j] = np.abs(even[j]).max() * np.array([-1.0, 1.0])
-            wider = replace(problem, limits=replace(limits, **{f"{quantity}_interval": even}))
-            low, high = np.abs(interval[j])
-            way = "back" if low < high else "forth"
-            what = f"{problem.joint_name(j)}'s lower {quantity} limit on the way {way}"
-            yield _Without("asymmetric limit", what, j, False, wider, problem.conditions)
-
-
-_LEFT_OUT: tuple[Callable[[Problem], Iterator[_Without]], ...] = (
-    _of_waypoints,
-    _of_segments,
-    _of_ends,
-    _of_directions,
-)
-
-
-def _less(given: Mapping[int, Any], gone: Iterable[int]) -> dict[int, Any]:
-    dropped = set(gone)
-    return {k: value for k, value in given.items() if k not in dropped}
 
 
 def _digits(seconds: float, *, up: bool = False) -> str:

@@ -8,9 +8,9 @@ import numpy as np
 import pytest
 
 from formulations import Conditions, Limits, Problem, free_form, load
-from formulations import demand_costs as module
+from formulations.costs import demand_costs as module
+from formulations.costs.demand_costs import DemandCost, count_demands, demand_costs
 from formulations.deadlines import Deadline
-from formulations.demand_costs import DemandCost, demand_costs
 
 A = 4.0  # rad/s^2
 THERE_AND_BACK = Problem.of([[0.0], [1.0], [0.0]], Limits.of(100.0, A, dof=1))
@@ -51,6 +51,16 @@ def test_a_zone_at_the_end_saves_what_the_shorter_way_saves() -> None:
     cost = only(demand_costs(problem, Conditions(tolerance={1: np.array([0.19])})))
     assert cost.saves
     holds(cost, 2.0 * (1.0 - np.sqrt(0.81)) / np.sqrt(A))
+
+
+def test_zones_are_counted_together_too() -> None:
+    """Each of the two halves of the way there and back is shorter by both zones: sqrt(d) s each."""
+    asked = Conditions(tolerance={0: np.array([0.19]), 1: np.array([0.32])})
+    costs = demand_costs(THERE_AND_BACK, asked)
+    together = next(cost for cost in costs if cost.demand == "zones")
+    holds(together, 2.0 - np.sqrt(0.49) - np.sqrt(0.68))
+    assert {cost.demand for cost in costs} == {"zones", "zone"}
+    assert together.line.startswith("all zones together save ")
 
 
 def test_a_window_and_a_passage_cost_their_delay() -> None:
@@ -100,6 +110,7 @@ def test_every_demand_of_an_arm_has_a_row_that_planning_again_confirms() -> None
     sr4c = load("sr4c")
     asked = Conditions(tolerance={1: np.full(6, 0.1)}, waits={2: 0.3}, segment_times={0: (1.5, 3.0)})
     costs = demand_costs(sr4c, asked)
+    assert count_demands(replace(sr4c, conditions=asked)) == len(costs)
     assert {cost.demand for cost in costs} == {"zone", "wait", "least time", "greatest time"}
     assert [cost.seconds for cost in costs] == sorted((c.seconds for c in costs), reverse=True)
     wait = next(cost for cost in costs if cost.demand == "wait")
