@@ -30,6 +30,14 @@ def test_savings_of_one_joint_in_closed_form() -> None:
         assert row.bound <= row.seconds
 
 
+def test_velocity_limits_alone() -> None:
+    """There and back at 2 rad/s, 2 (1 - zone) rad. Joint 2 is never late."""
+    problem = Problem.of([[0.0, 0.0], [1.0, 0.4], [0.0, 0.8]], Limits.of(2.0, dof=2))
+    row = zones.savings(problem, [0.1])[0]
+    assert row.saved == pytest.approx(0.1, abs=1e-4)
+    assert row.least <= 0.1 <= row.greatest
+
+
 def test_a_zone_of_a_tenth_of_a_radian_on_ur5() -> None:
     row = zones.savings(load("ur5"), [0.1])[0]
     assert row.saved == pytest.approx(0.7828, abs=2e-4)
