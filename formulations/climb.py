@@ -10,6 +10,7 @@ from dataclasses import dataclass, field
 from typing import Any
 
 from formulations.deadlines import NEVER, Deadline
+from formulations.lateness import explained
 from formulations.motion.trajectory import Trajectory
 from formulations.motion.verdict import check
 from formulations.optima.family.optimum import FamilyOptimum
@@ -254,7 +255,8 @@ class Climb:
             if rung.takes is Takes.PROBLEM:
                 return rung.find(self.problem)
             if rung.takes is Takes.CLIMB:
-                return rung.find(self)
+                with explained(self.problem, deadline=self.deadline):
+                    return rung.find(self)
             if self.optimum is None:
                 return Outcome.not_applicable("there is no family optimum")
             return rung.find(self.problem, self.optimum.trajectory)

@@ -11,6 +11,7 @@ from dataclasses import dataclass, replace
 
 import numpy as np
 
+from formulations.costs.demand_costs import DemandCost
 from formulations.deadlines import NEVER, Deadline
 from formulations.motion.verdict import QUANTITIES
 from formulations.optima.free_form import FreeForm, SearchStatus, free_form
@@ -81,6 +82,8 @@ class Diagnosis:
         Time minus all shares; small but not 0, since the motion is a local optimum only nearly.
     names : tuple of str
         Names of the joints; empty where they have none.
+    costs : tuple of DemandCost
+        What each demand costs, by ``demand_costs``; empty where it was not asked for.
     """
 
     seconds: float
@@ -88,6 +91,7 @@ class Diagnosis:
     savings: tuple[Saving, ...]
     unexplained: float
     names: tuple[str, ...] = ()
+    costs: tuple[DemandCost, ...] = ()
 
     def lines(self) -> list[str]:
         """Write one sentence per hold; the first of each limit also says what raising it saves."""
@@ -111,6 +115,7 @@ class Diagnosis:
             "holds": [self._row(hold) for hold in self.holds],
             "savings": [self._row(saving) for saving in self.savings],
             "unexplained": self.unexplained,
+            "demands": [cost.to_json() for cost in self.costs],
         }
 
     def _row(self, entry: Hold | Saving) -> dict[str, object]:

@@ -11,6 +11,7 @@ import numpy as np
 
 from formulations.deadlines import Deadline
 from formulations.deadlines.deadline import Stop
+from formulations.lateness import explained
 from formulations.motion.picture import motion_picture
 from formulations.motion.trajectory import Trajectory
 from formulations.motion.verdict import Verdict
@@ -161,7 +162,8 @@ def plan(
     InputError
         For conditions that do not fit the problem.
     NoFeasibleMotion
-        No motion was found that keeps what was asked for. NotFoundInTime, which is one, where the time ended
+        No motion was found that keeps what was asked for; where a latest time is proved to be out of reach,
+        the message says so with both times. NotFoundInTime, which is one, where the time ended
         before a motion was verified.
 
     Examples
@@ -178,14 +180,15 @@ def plan(
     say = progress or (lambda line: None)
     asked = problem.conditions if conditions is None else conditions
     deadline = Deadline(time_limit, stop)
-    found = free_form(
-        problem,
-        conditions=asked,
-        tolerance=gap,
-        time_limit=time_limit,
-        stop=stop,
-        progress=lambda what, seconds: say(f"{what}: {seconds:.6g} s"),
-    )
+    with explained(problem, asked, deadline=deadline):
+        found = free_form(
+            problem,
+            conditions=asked,
+            tolerance=gap,
+            time_limit=time_limit,
+            stop=stop,
+            progress=lambda what, seconds: say(f"{what}: {seconds:.6g} s"),
+        )
     proof = None
     if bound:
         say("how fast any motion could be")

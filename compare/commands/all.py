@@ -41,13 +41,14 @@ from compare.files import output_folder
 from compare.papers.making import draw_again
 from compare.report.page import render
 from compare.report.suite_page import render_suite
-from compare.studies import proofs, study
+from compare.studies import proofs, study, zones
 from compare.studies.drawn_to_zero import bias
 from compare.studies.drawn_to_zero.centred_functions import FUNCTIONS
 from formulations import CASES, InputError
 
 # random 3-5-3 problems, most segments, problems per size: what a proof costs, in the report
 PROOFS = {"default": (40, 5, 1), "full": (1000, 8, 2)}
+ZONES = (0.01, 0.1)  # rad: sizes of the zones at the inner waypoints of the papers' arms
 # which swarms are drawn to zero: functions, arms, seeds, evaluations
 BIAS: dict[str, tuple[list[str], list[str], int, int]] = {
     "default": (["sphere"], ["sr4c"], 5, 2550),
@@ -193,6 +194,8 @@ def _studies(pool: Engine, size: str, swarms: list[str], store: Store, *, resume
     if size in PROOFS:
         calls = proofs.calls(*PROOFS[size])
         study.run(proofs.STUDY, calls, folder=store.folder, pool=pool, resume=resume)
+        calls = zones.calls(CASES, ZONES)
+        study.run(zones.STUDY, calls, folder=store.folder, pool=pool, resume=resume)
     if size in BIAS:
         functions, arms, repeats, evaluations = BIAS[size]
         calls = bias.calls(functions, arms, swarms, repeats, evaluations)

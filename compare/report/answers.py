@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import dataclass
+from math import floor
 
 from compare.benchmark.ladders import LadderRecord
 from compare.benchmark.records.rows import Row
@@ -11,6 +12,7 @@ from compare.benchmark.summaries import Summary, as_papers_run, best_claim, best
 from compare.report.overview import AT_OPTIMUM
 from compare.report.papers_at_a_glance import CANNOT_BE_JUDGED, PaperAtAGlance
 from compare.report.words import percent
+from compare.studies.zones import ZoneSaving
 
 
 @dataclass(frozen=True)
@@ -27,6 +29,7 @@ def answers(
     rows: Sequence[Row],
     ladders: Mapping[str, LadderRecord],
     papers: Sequence[PaperAtAGlance],
+    zones: Sequence[ZoneSaving] = (),
 ) -> list[Answer]:
     """Return the answers of a comparison.
 
@@ -39,14 +42,16 @@ def answers(
     ladders : mapping of str to LadderRecord
     papers : sequence of PaperAtAGlance
         Empty where no paper was audited.
+    zones : sequence of ZoneSaving
+        Empty where none was computed.
 
     Returns
     -------
     list of Answer
         Who reaches the optimum; how many claims break limits; what the papers' arms could do; whether a
-        motion lies below a bound.
+        motion lies below a bound; what zones at the waypoints save.
     """
-    made = [_reaching(found), _claims(rows), _papers(papers), _bounds(rows, ladders)]
+    made = [_reaching(found), _claims(rows), _papers(papers), _bounds(rows, ladders), _zones(zones)]
     return [answer for answer in made if answer is not None]
 
 
@@ -158,6 +163,23 @@ def _bounds(rows: Iterable[Row], ladders: Mapping[str, LadderRecord]) -> Answer 
         f"Each was compared with the certified lower bound of its family ({', '.join(sorted(proved))})."
     )
     return Answer(text, detail, "methods")
+
+
+def _zones(zones: Sequence[ZoneSaving]) -> Answer | None:
+    """What the widest zones at the inner waypoints save on each arm."""
+    if not zones:
+        return None
+    widest = max(row.zone for row in zones)
+    mine = sorted((row for row in zones if row.zone == widest), key=lambda row: -row.saved)
+    most, least = mine[0].saved, mine[-1].saved
+    many = f"{least:.2g} to {most:.2g}" if len(mine) > 1 else f"{most:.2g}"
+    text = f"A zone of {widest:g} rad at each inner waypoint saves {many} s"
+    each = [
+        f"{row.case} {row.saved:.4f} of {row.exact:.4f} s"
+        + (f" (proved: {floor(1e4 * row.least) / 1e4:.4f} s or more)" if row.least > 0.0 else "")
+        for row in mine
+    ]
+    return Answer(text, f"{'; '.join(each)}.", "zones")
 
 
 def headline(case: str, ladder: LadderRecord, rows: Sequence[Row]) -> str:

@@ -30,6 +30,7 @@ from compare.report.glossary import GLOSSARY
 from compare.report.overview import cells, columns, proof_words, to_best_known
 from compare.report.papers_at_a_glance import papers_at_a_glance
 from compare.studies.study import STUDIES
+from compare.studies.zones import ZoneSaving
 from formulations import RUNGS, Problem
 from metaheuristics import ALGORITHMS, GROUPS, NOT_REPRODUCIBLE
 
@@ -100,7 +101,11 @@ def render(pool: Engine, folder: Path, problems: dict[str, Problem], settings: S
         name: study for name, study in STUDIES.items() if (folder / "figures" / f"{name}.svg").exists()
     }
     context |= papers_context(store, folder, context["cases"])
-    context["answers"] = answers(context["summaries"], rows, ladders, context["papers"])
+    saved = folder / "zones.json"
+    context["zones"] = read_json(saved, _Zones, "a study")["summary"] if saved.exists() else []
+    context["answers"] = answers(
+        context["summaries"], rows, ladders, context["papers"], context["zones"]
+    )
     charts["all"] = {"arms": arms_chart(context["cases"], ladders, rows, context["papers"], best)}
     context["proofs"] = {case: proof_words(ladders[case], best[case]) for case in context["cases"]}
     bias = folder / "bias.json"
@@ -251,6 +256,12 @@ class _Bias(TypedDict):
     """What the report shows of a study of bias: by swarm and problem."""
 
     summary: dict[str, dict[str, float | None]]
+
+
+class _Zones(TypedDict):
+    """What the report shows of the study of zones: a ``ZoneSaving`` each."""
+
+    summary: list[ZoneSaving]
 
 
 def _parameters(row: Row) -> dict[str, Any]:

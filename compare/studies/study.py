@@ -50,6 +50,11 @@ STUDIES = {
         "What a proof costs",
         "Random problems, proved one by one (<code>timebound proofs</code>).",
     ),
+    "zones": (
+        "What a zone at each inner waypoint saves",
+        "Seconds that each arm saves if it may pass its inner waypoints within a zone, each joint by the same"
+        " angle, against the motion through the waypoints themselves. Bars: what is proved.",
+    ),
     "bias": (
         "Who is drawn to zero",
         "How much worse each swarm does when the optimum is moved away from x = 0, or the coordinates"

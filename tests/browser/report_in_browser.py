@@ -21,6 +21,7 @@ from compare.benchmark.run import audits, tabulate_known_times
 from compare.benchmark.summaries import bound_of
 from compare.engines import ThisProcess
 from compare.report import page as report_page
+from compare.studies import study, zones
 from formulations import Problem, ladder, load
 
 if TYPE_CHECKING:
@@ -82,6 +83,7 @@ def small_report(chromium: str, tmp_path_factory: pytest.TempPathFactory) -> Sma
                 ]
                 store.add_all((_as_shown(one.row), one.traces) for one in made)
     tabulate_known_times(here, problems, store)
+    study.run(zones.STUDY, zones.calls(["cobot"], (0.01, 0.1)), folder=folder)
     with pytest.MonkeyPatch.context() as patch:
         patch.setattr(report_page, "draw_case", _no_pictures)  # they are tested elsewhere
         page = report_page.render(here, folder, problems, settings)

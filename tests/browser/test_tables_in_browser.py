@@ -229,3 +229,18 @@ def test_a_link_to_a_closed_part_opens_it(
     assert part.locator("h4").first.is_visible()
     top = page.locator("#planted").evaluate("(one) => one.getBoundingClientRect().top")
     assert -5.0 <= top < 900.0
+
+
+def test_what_zones_save_stands_beside_what_is_proved(light: Shown) -> None:
+    table = light.page.locator("h2#zones ~ div table").first
+    sort_by(table.locator("th", has_text="zone [rad]"))
+    assert [one.inner_text() for one in table.locator("tbody td:nth-child(2)").all()] in (
+        ["0.01", "0.1"],
+        ["0.1", "0.01"],
+    )
+    for row in table.locator("tbody tr").all():
+        saved, least, greatest = (float(one) for one in row.locator("td").all_inner_texts()[-3:])
+        assert 0.0 < least <= saved <= greatest
+    said = light.page.locator("ul.answers li", has_text="A zone of 0.1 rad")
+    assert "cobot 0.114" in said.inner_text()
+    assert said.locator("a").get_attribute("href") == "#zones"

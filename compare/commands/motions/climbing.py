@@ -4,14 +4,18 @@ from __future__ import annotations
 
 import sys
 from collections.abc import Callable
+from dataclasses import replace
 from typing import Any
 
 from formulations import InputError, Ladder, Problem, ladder
 from formulations.climb import RungResult
+from formulations.costs.demand_costs import demand_costs
 from formulations.deadlines import Deadline
 from formulations.diagnosis import Diagnosis, diagnose
 from formulations.rungs import LARGE, usual_rungs, with_needs
 from formulations.rungs import without as leave_out
+
+_COSTS = 60.0  # s for what the demands cost: each of many takes as long as the motion itself
 
 
 def chosen_rungs(
@@ -73,8 +77,8 @@ def climb(
     -------
     Ladder
     Diagnosis or None
-        What limits the fastest motion; None where there is none, where the time was over, or where the
-        motion asked for is the smoothest one.
+        What limits the fastest motion, and what each demand costs; None where there is no motion, or where
+        the time was over. No limit holds the smoothest motion in a given time up.
     """
     answer = ladder(
         problem,
@@ -85,10 +89,19 @@ def climb(
         finished=lambda result: print(_line(problem.name, result), file=sys.stderr, flush=True),
         **options,
     )
-    if answer.free_form is None or deadline.over or problem.conditions.total is not None:
+    if answer.free_form is None or deadline.over:
         return answer, None
+    costs = demand_costs(
+        problem,
+        found=answer.free_form,
+        deadline=deadline.within(_COSTS),
+        progress=lambda what: stage(f"what a motion takes without {what}"),
+    )
+    if problem.conditions.total is not None:
+        seconds = answer.free_form.seconds
+        return answer, Diagnosis(seconds, (), (), seconds, problem.names, costs)
     stage("what limits the fastest motion")
-    return answer, diagnose(problem, answer.free_form, deadline=deadline)
+    return answer, replace(diagnose(problem, answer.free_form, deadline=deadline), costs=costs)
 
 
 def unsolved(answer: Ladder) -> str:

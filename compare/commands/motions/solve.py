@@ -24,14 +24,16 @@ from compare.commands.options import (
     writable,
 )
 from compare.interrupts import ctrl_c_stops
+from compare.report.asked_words import sentences
 from compare.screen import show, stages, table
 from formulations import RUNGS, InputError, Ladder, Problem
+from formulations.costs.demand_costs import count_demands
 from formulations.deadlines import Deadline
 from formulations.optima.at_rate.export import check_export, export_motion
 from formulations.problem.toml_file.plain_conditions import asked_as_json
 from formulations.proofs.certificate import write_certificate
 
-_LINES = 8  # of what limits the fastest motion
+_LINES = 8  # of what limits the fastest motion, of what is asked for
 _PROOF = {"lower": "proved", "upper": "verified", "reference": "discretised"}
 
 
@@ -85,11 +87,19 @@ def solve(
         interrupted = stop()
     text = [
         f"{problem.name}: {problem.title}",
-        f"{problem.dof} joints, {problem.n_segments} segments, family {problem.family}\n",
+        f"{problem.dof} joints, {problem.n_segments} segments, family {problem.family}",
+        *_asked(problem),
+        "",
         as_text(answer),
     ]
     if held is not None and held.holds:
         text += ["\nwhat limits the fastest motion", *(f"  {line}" for line in held.lines()[:_LINES])]
+    if held is not None and (demands := count_demands(problem)):
+        text += ["\nwhat each demand costs", *(f"  {cost.line}" for cost in held.costs)]
+        if (known := len(held.costs)) < demands:
+            text.append(
+                f"  known of {known} of {demands}: time ended the search, or none is to be compared"
+            )
     diagnosis = None if held is None else held.to_json()
     show("\n".join(text), {**answer.to_json(), **asked_as_json(problem), "diagnosis": diagnosis}, json)
     say = sys.stderr if json == "-" else sys.stdout
@@ -148,6 +158,15 @@ def as_text(answer: Ladder) -> str:
     notes = [f"  {rung.key}: {rung.note}" for rung in rungs if rung.note]
     header = ["rung", "time", "status", "took", "what it is"]
     return "\n".join([table(header, rows, right=(1, 3)), "", "notes", *notes])
+
+
+def _asked(problem: Problem) -> list[str]:
+    """Say at the head of the ladder what is asked for beyond waypoints and limits of both directions."""
+    said = sentences(problem, problem.conditions)
+    if not problem.limits.symmetric:
+        said.append("Its limits differ between the directions.")
+    more = [f"and {len(said) - _LINES} demands more"] if len(said) > _LINES else []
+    return ["asked for:", *(f"  {line}" for line in [*said[:_LINES], *more])] if said else []
 
 
 def _export(path: str, problem: Problem, answer: Ladder, rate: float | None) -> str:

@@ -288,7 +288,7 @@ def free_form(
         and problem.limits.symmetric
         and best.verdict.seconds > 0.999 * search.stages[0].seconds
     ):
-        best = _or_ruckig(problem, best)
+        best = _or_ruckig(replace(problem, conditions=asked), best)
     if task.group(1):
         notes.append(
             "joints without an acceleration limit have no fastest motion, only an infimum: they change "

@@ -60,6 +60,8 @@ def retime(
     least = np.maximum(least_times(task, motion.places), motion.times if task.paced else 0.0)
     if not joints:
         return ArcMotion(least, {}, motion.places)
+    if not joints:  # velocity limits only: the places say how long each segment takes
+        return ArcMotion(least, {}, motion.places)
     times = np.zeros(task.n_segments)
     durations = np.zeros((len(joints), task.n_segments, _PHASES))
     tops = np.zeros_like(durations)

@@ -1,0 +1,232 @@
+"""What each demand on a motion costs, in seconds: the task is solved again without it, motion and bound.
+
+The motion gives the estimate, motion and bound of both tasks the interval that is proved. What widens the
+choice of motions, such as a zone, is asked the other way round: what it saves.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from dataclasses import dataclass, replace
+from typing import Any, NamedTuple
+
+import numpy as np
+
+from formulations.costs.left_out import left_out
+from formulations.deadlines import NEVER, Deadline
+from formulations.optima.free_form import FreeForm, SearchStatus, free_form
+from formulations.problem.conditions import Conditions
+from formulations.problem.errors import InputError, NoFeasibleMotion, NotFoundInTime
+from formulations.problem.problem import Problem
+from formulations.proofs.every_motion.bound import FreeFormBound, free_form_bound
+
+_GAP, _PROOF = 1e-4, 20.0  # of each motion and its bound; s for one bound
+_MANY = ("all zones", "the limits")  # subjects that are plural
+_NOTHING = 1e-5  # s
+_CUT_SHORT = (SearchStatus.TIME_LIMIT, SearchStatus.INTERRUPTED)
+
+
+@dataclass(frozen=True)
+class DemandCost:
+    """What one demand costs, or saves.
+
+    Attributes
+    ----------
+    demand : str
+        Its kind: "zones" (all of them), "zone", "window", "passage", "least time", "greatest time",
+        "wait", "stop", "segment limits", "start state", "end state", "cycle", "total" or "asymmetric limit".
+    what : str
+        The demand in words; waypoints and segments count from 1.
+    place : int or None
+        Waypoint, segment or joint that it is about, from 0.
+    saves : bool
+        Whether it lets motions be faster, so that the seconds are saved; else they are lost.
+    seconds : float [s]
+        Difference of the two motions that were found.
+    least, greatest : float [s]
+        What is proved: the difference of the two least times of verified motions lies between these.
+    """
+
+    demand: str
+    what: str
+    place: int | None
+    saves: bool
+    seconds: float
+    least: float
+    greatest: float
+
+    @property
+    def line(self) -> str:
+        """The cost in one sentence."""
+        verb = ("save" if self.saves else "cost") + ("" if self.what.startswith(_MANY) else "s")
+        most = _digits(self.greatest, up=True)
+        if self.greatest < _NOTHING:
+            return f"{self.what} {verb} nothing (proved: at most {most} s)"
+        proved = f"at least {_digits(self.least)} s" if self.least > 0.0 else f"at most {most} s"
+        return f"{self.what} {verb} {self.seconds:.4g} s (proved: {proved})"
+
+    def to_json(self) -> dict[str, Any]:
+        """The same as plain data; the place counts from 1."""
+        place = None if self.place is None else self.place + 1
+        greatest = self.greatest if np.isfinite(self.greatest) else None
+        return {**vars(self), "place": place, "greatest": greatest}
+
+
+def count_demands(problem: Problem) -> int:
+    """Count the demands of a problem that ``demand_costs`` knows how to leave out.
+
+    Parameters
+    ----------
+    problem : Problem
+
+    Returns
+    -------
+    int
+    """
+    return sum(1 for _ in left_out(problem))
+
+
+class SolvedTask(NamedTuple):
+    """The best motion of a task [s], and what no verified motion of it beats [s]."""
+
+    motion: float
+    bound: float
+
+    def over(self, other: SolvedTask) -> tuple[float, float, float]:
+        """Compare with another task.
+
+        Parameters
+        ----------
+        other : SolvedTask
+
+        Returns
+        -------
+        tuple of float [s]
+            How much longer this task takes: by the two motions, at least and at most, proved.
+        """
+        return self.motion - other.motion, self.bound - other.motion, self.motion - other.bound
+
+
+def demand_costs(
+    problem: Problem,
+    conditions: Conditions | None = None,
+    *,
+    found: FreeForm | None = None,
+    deadline: Deadline = NEVER,
+    progress: Callable[[str], None] | None = None,
+) -> tuple[DemandCost, ...]:
+    """Solve a task without each of its demands in turn, and say what each costs.
+
+    Parameters
+    ----------
+    problem : Problem
+    conditions : Conditions, optional
+        In place of the problem's own.
+    found : FreeForm, optional
+        The motion under all demands; searched for if left out.
+    deadline : Deadline
+        Demands that are not solved without when it is over are left out.
+    progress : callable, optional
+        Called with each demand in words before it is left out.
+
+    Returns
+    -------
+    tuple of DemandCost
+        Largest first. Where the total time is given, the total alone: under it no other demand
+        changes the time.
+
+    Raises
+    ------
+    NoFeasibleMotion
+        No motion was found that keeps all demands.
+
+    Notes
+    -----
+    With motions of times u and lower bounds b, the least times differ by at least b - u' and at most
+    u - b', where a prime marks the task without the demand. The bounds are those of motions that pass
+    the check, whose tolerances can save a part in 1e8 (``FreeFormBound.least_verified``).
+
+    Examples
+    --------
+    A joint turns back at 1 rad, where it stands still in any case, and waits there for half a second:
+
+    >>> from formulations import Conditions, Limits, Problem
+    >>> problem = Problem.of([[0.0], [1.0], [0.0]], Limits.of(velocity=10.0, acceleration=4.0, dof=1))
+    >>> for cost in demand_costs(problem, Conditions(waits={1: 0.5})):
+    ...     print(f"{cost.what} costs {cost.seconds:.4f} s")
+    the wait at waypoint 2 costs 0.5000 s
+    """
+    asked = problem.conditions if conditions is None else conditions
+    problem = replace(problem, conditions=asked)
+    demands = list(left_out(problem))
+    if not demands or deadline.over:
+        return ()
+    say = progress or (lambda what: None)
+    whole = solved(problem, deadline, found)
+    if whole is None:
+        return ()
+    costs = []
+    for one in demands:
+        if deadline.over:
+            break
+        say(one.what)
+        try:
+            other = solved(replace(one.problem, conditions=one.conditions), deadline)
+        except NotFoundInTime:
+            break
+        except (InputError, NoFeasibleMotion):
+            continue  # nothing can be compared: without it the task is none, or no motion is found
+        if other is None:
+            break
+        faster, slower = (whole, other) if one.saves else (other, whole)
+        costs.append(
+            DemandCost(
+                one.demand,
+                one.what,
+                one.place,
+                one.saves,
+                *slower.over(faster),
+            )
+        )
+    return tuple(sorted(costs, key=lambda cost: -cost.seconds))
+
+
+def solved(
+    problem: Problem, deadline: Deadline = NEVER, found: FreeForm | None = None
+) -> SolvedTask | None:
+    """Find the fastest motion of a task and its bound.
+
+    Parameters
+    ----------
+    problem : Problem
+        With its conditions.
+    deadline : Deadline
+    found : FreeForm, optional
+        Its motion, where it is known.
+
+    Returns
+    -------
+    SolvedTask or None
+        None where the time ended the search.
+    """
+    motion = found or free_form(problem, tolerance=_GAP, time_limit=deadline.left, stop=deadline.stop)
+    if motion.status in _CUT_SHORT:
+        return None
+    proof: FreeFormBound = free_form_bound(
+        problem,
+        gap=_GAP,
+        upper=None if motion.trajectory is None else motion.seconds,
+        time_limit=deadline.within(_PROOF).left,
+        stop=deadline.stop,
+    )
+    bound = proof.least_verified
+    fixed = problem.conditions.times(problem).get(problem.n_segments)
+    return SolvedTask(motion.seconds, bound if fixed is None else max(bound, fixed))
+
+
+def _digits(seconds: float, *, up: bool = False) -> str:
+    """Four digits, rounded to the side on which what is said stays proved."""
+    if not (np.isfinite(seconds) and seconds > 0.0):
+        return f"{seconds:.4g}"
+    unit = 10.0 ** (np.floor(np.log10(seconds)) - 3.0)
+    return f"{(np.ceil if up else np.floor)(seconds / unit) * unit:.4g}"

@@ -1,0 +1,81 @@
+"""``timebound solve`` under demands: what is asked for, what each costs, and why there is no motion."""
+
+from __future__ import annotations
+
+import json
+from pathlib import Path
+
+import pytest
+
+from compare.__main__ import main
+from compare.commands.motions import climbing
+
+THERE_AND_BACK = """\
+name = "turn"
+waypoints = [[0.0], [1.0], [0.0]]
+
+[limits]
+velocity = 100
+acceleration = [[{least}, 4]]
+"""
+
+
+@pytest.fixture
+def file(tmp_path: Path) -> str:
+    path = tmp_path / "turn.toml"
+    path.write_text(THERE_AND_BACK.format(least=-4))
+    return str(path)
+
+
+def solved(*words: str) -> list[str]:
+    return ["solve", *words, "--rungs", "free_form,free_form_lower"]
+
+
+def test_the_head_and_the_costs(file: str, tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
+    found = tmp_path / "found.json"
+    assert main(solved(file, "--wait", "1=0.5", "--json", str(found))) == 0
+    text = capsys.readouterr().out
+    assert "asked for:\n  It stands still at waypoint 2 for 0.5 s.\n" in text
+    assert "what each demand costs\n  the wait at waypoint 2 costs 0.5 s (proved: at least 0.4" in text
+    kept = json.loads(found.read_text())
+    (row,) = kept["diagnosis"]["demands"]
+    assert (row["demand"], row["place"], row["saves"]) == ("wait", 2, False)
+    assert row["least"] <= 0.5 <= row["greatest"]
+    assert kept["conditions"]["waypoint"][0]["wait"] == 0.5
+
+
+def test_a_total_has_a_cost_too(file: str, capsys: pytest.CaptureFixture[str]) -> None:
+    assert main(solved(file, "--total", "3")) == 0
+    assert "the given total time costs 1 s (proved: at least" in capsys.readouterr().out
+
+
+def test_limits_of_one_direction_are_said(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
+    path = tmp_path / "lift.toml"
+    path.write_text(THERE_AND_BACK.format(least=-1))
+    assert main(solved(str(path))) == 0
+    text = capsys.readouterr().out
+    assert "Its limits differ between the directions." in text
+    assert "joint 1's lower acceleration limit on the way back costs " in text
+
+
+def test_without_demands_nothing_is_said(file: str, capsys: pytest.CaptureFixture[str]) -> None:
+    assert main(solved(file)) == 0
+    text = capsys.readouterr().out
+    assert "asked for" not in text
+    assert "what each demand costs" not in text
+
+
+def test_where_time_is_short_it_says_how_many_are_known(
+    file: str, capsys: pytest.CaptureFixture[str], monkeypatch: pytest.MonkeyPatch
+) -> None:
+    monkeypatch.setattr(climbing, "_COSTS", 0.0)
+    assert main(solved(file, "--wait", "1=0.5")) == 0
+    assert "0 of 1 demands are known: the time was over" in capsys.readouterr().out
+
+
+def test_a_window_that_nothing_keeps(file: str, capsys: pytest.CaptureFixture[str]) -> None:
+    """1 rad from rest at 4 rad/s^2, arriving with a speed that no limit forbids: at least sqrt(2 / 4) s."""
+    assert main(solved(file, "--window", "1=0:0.5")) == 2
+    said = capsys.readouterr().err
+    assert "waypoint 1: its latest time is 0.5 s, 0.207 s before any motion can be there" in said
+    assert "none arrives before 0.707107 s" in said
