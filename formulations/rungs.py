@@ -192,14 +192,12 @@ def _free_form(climb: Climb) -> Outcome:
         return Outcome.ok(0.0, note="nothing moves")
     found = free_form(
         climb.problem,
-        conditions=climb.problem.conditions,
         tolerance=climb.gap,
         time_limit=_SHARE * climb.deadline.left,
         stop=climb.deadline.stop,
     )
     climb.free_form = found
-    ended = [] if found.status == "ok" else [found.ending]
-    note = "; ".join([found.method, *found.notes, *ended])
+    note = "; ".join([found.method, *found.notes, *([found.ending] * (found.status != "ok"))])
     # splines and stop-and-go are motions too; the fastest one of all is reported
     others = {key: climb.seconds(key) for key in ("family", "ruckig_stop_and_go")}
     for key, seconds in others.items():

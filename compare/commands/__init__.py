@@ -168,7 +168,7 @@ _ALL = (
     ),
     Command(
         "rivals", "compare.commands.studies.rivals:rivals", STUDIES,
-        "Run other programs on the same tasks: times, broken limits, distance from the bound.",
+        "Run other programs on the same tasks: times, broken limits, distance to the bound.",
         "timebound rivals sr4c --rivals drake_spline,scip --time-limit 30 --page rivals.html",
     ),
 )  # fmt: skip

@@ -8,7 +8,8 @@ from math import isinf
 import numpy as np
 
 from formulations import Problem
-from formulations.problem.conditions import Conditions, EndState, Interval
+from formulations.problem.condition_values import EndState
+from formulations.problem.conditions import Conditions, Interval
 
 
 def sentences(problem: Problem, asked: Conditions) -> list[str]:

@@ -4,19 +4,19 @@ from __future__ import annotations
 
 from collections.abc import Mapping
 from dataclasses import dataclass, field, fields, replace
-from typing import TYPE_CHECKING, Literal, TypeAlias
+from typing import TYPE_CHECKING, TypeAlias
 
 import numpy as np
 
 from formulations.problem.arrays import Array
 from formulations.problem.condition_checks import require_fitting
+from formulations.problem.condition_values import EndState, end_state, same_value
 from formulations.problem.limits import Limits
 from formulations.problem.torque import TorqueLimits
 
 if TYPE_CHECKING:
     from formulations.problem.problem import Problem
 
-EndState: TypeAlias = "Array | Literal['free'] | None"
 Interval: TypeAlias = tuple[float, float]
 
 TOOL_ZONE_TOLERANCE = 0.1  # rad, or m: of a joint at a zone of the tool where no tolerance is given
@@ -109,7 +109,9 @@ class Conditions:
     def __eq__(self, other: object) -> bool:
         if not isinstance(other, Conditions):
             return NotImplemented
-        return all(_same(getattr(self, one.name), getattr(other, one.name)) for one in fields(self))
+        return all(
+            same_value(getattr(self, one.name), getattr(other, one.name)) for one in fields(self)
+        )
 
     __hash__ = None  # type: ignore[assignment]  # holds arrays
 
@@ -306,7 +308,7 @@ class Conditions:
         Array, shape (2, dof)
             [rad/s]; NaN where they are free.
         """
-        ends = [_end(value, problem.dof) for value in (self.start_velocity, self.end_velocity)]
+        ends = [end_state(value, problem.dof) for value in (self.start_velocity, self.end_velocity)]
         return np.full((2, problem.dof), np.nan) if self.cyclic else np.stack(ends)
 
     def end_accelerations(self, problem: Problem) -> Array:
@@ -322,7 +324,9 @@ class Conditions:
         Array, shape (2, dof)
             [rad/s^2]; NaN where they are free.
         """
-        ends = [_end(value, problem.dof) for value in (self.start_acceleration, self.end_acceleration)]
+        ends = [
+            end_state(value, problem.dof) for value in (self.start_acceleration, self.end_acceleration)
+        ]
         return np.full((2, problem.dof), np.nan) if self.cyclic else np.stack(ends)
 
     def times(self, problem: Problem) -> dict[int, float]:
@@ -340,21 +344,3 @@ class Conditions:
         """
         fixed = {waypoint: float(time) for waypoint, time in self.passage.items() if waypoint > 0}
         return fixed if self.total is None else {**fixed, problem.n_segments: float(self.total)}
-
-
-def _end(value: EndState, dof: int) -> Array:
-    """A state at an end, (dof,): 0 where none is given, NaN where it is free."""
-    if value is None:
-        return np.zeros(dof)
-    return np.full(dof, np.nan) if isinstance(value, str) else np.asarray(value, dtype=np.float64)
-
-
-def _same(one: object, other: object) -> bool:
-    """Whether two values of a field are equal, arrays entry by entry."""
-    if isinstance(one, Mapping) and isinstance(other, Mapping):
-        return one.keys() == other.keys() and all(_same(one[key], other[key]) for key in one)
-    if isinstance(one, str) or isinstance(other, str) or one is None or other is None:
-        return one is other or (isinstance(one, str) and one == other)
-    if isinstance(one, Limits | TorqueLimits | frozenset | bool):
-        return one == other
-    return np.array_equal(np.asarray(one), np.asarray(other))

@@ -16,7 +16,7 @@ from cyclopts import Group, Parameter
 if TYPE_CHECKING:
     from formulations import Conditions, Problem
     from formulations.problem.arrays import Array
-    from formulations.problem.conditions import EndState
+    from formulations.problem.condition_values import EndState
     from formulations.problem.torque import TorqueLimits
 
 _CONDITIONS = Group(

@@ -1,6 +1,7 @@
 """The fastest motion through waypoints, of all with bounded velocity, acceleration and jerk.
 
-fastest           ``free_form``, which others call, and its answer
+fastest           ``free_form``, which others call
+answer            its answer
 ending            how the search ended
 stage             one step of the search
 mesh_refinement   the search: programs on finer and finer meshes, each motion judged by the check
@@ -16,8 +17,9 @@ nlp/              the nonlinear program: ``nlp.equations`` has it in one page
 
 from __future__ import annotations
 
+from formulations.optima.free_form.answer import FreeForm
 from formulations.optima.free_form.ending import SearchStatus
-from formulations.optima.free_form.fastest import FreeForm, free_form
+from formulations.optima.free_form.fastest import free_form
 from formulations.optima.free_form.sensitivity import Sensitivity
 from formulations.optima.free_form.stage import Stage
 

@@ -18,8 +18,8 @@ from formulations.deadlines import Deadline
 from formulations.dynamics import ArmDynamics, dynamics_of
 from formulations.motion.trajectory import Trajectory
 from formulations.motion.verdict import Verdict, check
+from formulations.optima.free_form.answer import FreeForm
 from formulations.optima.free_form.ending import SearchStatus
-from formulations.optima.free_form.fastest import FreeForm
 from formulations.optima.free_form.stage import Stage
 from formulations.optima.torque.program import TorqueProgram
 from formulations.optima.torque.steps import Steps, sampled

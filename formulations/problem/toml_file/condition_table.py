@@ -11,7 +11,8 @@ from typing import Any, Literal
 import numpy as np
 
 from formulations.problem.arrays import Array
-from formulations.problem.conditions import Conditions, EndState
+from formulations.problem.condition_values import EndState
+from formulations.problem.conditions import Conditions
 from formulations.problem.errors import InputError
 from formulations.problem.joint_words import factors, joint_label, shown_unit
 from formulations.problem.limits import Limits

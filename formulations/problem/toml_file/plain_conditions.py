@@ -9,7 +9,7 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 from formulations.problem.arrays import Array
-from formulations.problem.conditions import EndState
+from formulations.problem.condition_values import EndState
 from formulations.problem.joint_words import factors
 from formulations.problem.limits import Limits
 from formulations.problem.toml_file.torque_table import table_of_torque

@@ -18,7 +18,7 @@ from formulations.problem.errors import NoFeasibleMotion, NotFoundInTime
 from formulations.problem.problem import Problem
 
 if TYPE_CHECKING:
-    from formulations.optima.free_form.fastest import FreeForm
+    from formulations.optima.free_form.answer import FreeForm
 
 
 def under_tool(
