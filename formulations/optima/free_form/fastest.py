@@ -20,6 +20,7 @@ from formulations.optima.free_form.many_waypoints import (
     FoundInLinearTime,
     found_in_linear_time,
     has_many_waypoints,
+    is_final,
 )
 from formulations.optima.free_form.mesh_refinement import MeshRefinement
 from formulations.optima.free_form.nlp.assembly import RAMP
@@ -200,10 +201,11 @@ def free_form(
     task = ConditionedProblem(problem, asked)
     if not task.n_segments:
         return _nothing_moves(problem, asked, begun)
+    many = None
     if has_many_waypoints(task):
-        with_many = found_in_linear_time(problem, tolerance, deadline, progress)
-        if with_many is not None:
-            return _of_many(problem, asked, with_many, begun)
+        many = found_in_linear_time(problem, tolerance, deadline, progress)
+        if many is not None and is_final(many, task):
+            return _of_many(problem, asked, many, begun)
 
     def run(task: ConditionedProblem) -> MeshRefinement:
         search = MeshRefinement(task, solver, progress, deadline)
@@ -216,6 +218,8 @@ def free_form(
     with np.errstate(all="ignore"):  # what overflows is not finite, and the check refuses it
         search = searched(task, run)
     best = search.best
+    if many is not None and (best is None or many.verdict.seconds < best.verdict.seconds):
+        return _of_many(problem, asked, many, begun)
     status = search.status(tolerance)
     if best is None and search.ended:
         raise NotFoundInTime(f"{status}: no motion was found yet that keeps {named(asked)}")

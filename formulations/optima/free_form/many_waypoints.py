@@ -27,6 +27,7 @@ MANY = 40  # segments from which this search is the faster one, by measurement: 
 _WIDE = 200  # segments times joints: fewer are quick in either way
 _FINEST = 1e-5  # relative tolerance that the search reaches
 _SLOWER = (0.0, 1e-9, 1e-7, 1e-6, 1e-5, 1e-4, 1e-3)  # tried in turn until the check is content
+_PROGRAMS = 150  # segments up to which the programs are tried where this search does not converge
 NAME = "waypoint states of the whole motion"
 
 
@@ -54,6 +55,22 @@ def has_many_waypoints(task: ConditionedProblem) -> bool:
     S, n = task.n_segments, len(task.moving)
     plain = task.conditions.none and task.problem.plain and not task.group(1)
     return plain and S >= MANY and S * n >= _WIDE
+
+
+def is_final(found: FoundInLinearTime, task: ConditionedProblem) -> bool:
+    """Say whether the programs need not be tried as well.
+
+    Parameters
+    ----------
+    found : FoundInLinearTime
+    task : ConditionedProblem
+
+    Returns
+    -------
+    bool
+        False where this search did not converge, as on dense paths, and the programs are not too large.
+    """
+    return found.status is not SearchStatus.NOT_CONVERGED or task.n_segments > _PROGRAMS
 
 
 def found_in_linear_time(
