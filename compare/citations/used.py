@@ -107,6 +107,8 @@ def method_for(rung: str, problem: Problem) -> str | None:
     """
     if rung == "copp_family_path":
         return rung if problem.limits.has_jerk and find_spec("copp_py") is not None else None
+    if rung == "toppra_torque":
+        return None if problem.conditions.torque is None else rung
     if np.isfinite(problem.limits.acceleration).all():
         return rung
     if rung.startswith("ruckig"):

@@ -80,9 +80,10 @@ def save(problem: Problem, path: str | Path) -> None:
     >>> import formulations as f
     >>> asked = f.Conditions(tolerance={1: [0.1]}, waits={1: 0.5})
     >>> problem = f.Problem([[0.0], [1.0], [0.5]], {"velocity": 1.0}, conditions=asked)
-    >>> import tempfile; folder = tempfile.TemporaryDirectory()
-    >>> f.save(problem, f"{folder.name}/mine.toml")
-    >>> f.load(f"{folder.name}/mine.toml") == problem
+    >>> import tempfile
+    >>> with tempfile.TemporaryDirectory() as folder:
+    ...     f.save(problem, f"{folder}/mine.toml")
+    ...     f.load(f"{folder}/mine.toml") == problem
     True
     """
     write_text(Path(path), problem_text(problem))

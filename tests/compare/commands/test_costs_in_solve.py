@@ -70,7 +70,7 @@ def test_where_time_is_short_it_says_how_many_are_known(
 ) -> None:
     monkeypatch.setattr(climbing, "_COSTS", 0.0)
     assert main(solved(file, "--wait", "1=0.5")) == 0
-    assert "0 of 1 demands are known: the time was over" in capsys.readouterr().out
+    assert "known of 0 of 1: time ended the search" in capsys.readouterr().out
 
 
 def test_a_window_that_nothing_keeps(file: str, capsys: pytest.CaptureFixture[str]) -> None:

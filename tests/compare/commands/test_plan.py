@@ -84,6 +84,7 @@ def test_a_task_without_a_solution_is_told_as_a_bad_file_is(capsys: pytest.Captu
     assert main(["plan", "nowhere.toml"]) == 2
     missing = capsys.readouterr().err
     # both: error, what was asked for, the reason; no colon less, no line more
-    assert infeasible.startswith("error: ur5: no motion found")
+    assert infeasible.startswith("error: ur5: conditions.total: waypoint 3: its latest time is 10 s")
+    assert "no motion found" in infeasible
     assert missing.startswith("error: nowhere.toml: no such file")
     assert infeasible.count("\n") == missing.count("\n") == 1

@@ -26,7 +26,8 @@ def large(n: int, dof: int = 7) -> np.ndarray:
 def hundred(tmp_path: Path) -> Path:
     path = tmp_path / "hundred.toml"
     limits = "\n".join(f"{key} = {value}" for key, value in LIMITS.items())
-    path.write_text(f'name = "hundred"\nwaypoints = {large(100).tolist()}\n[limits]\n{limits}\n')
+    text = f'name = "hundred"\nwaypoints = {large(100).tolist()}\n[limits]\n{limits}\n'
+    path.write_text(f"{text}[conditions]\nstops = [50]\n")  # programs of half a minute
     return path
 
 

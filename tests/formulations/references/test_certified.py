@@ -14,6 +14,7 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 
 from formulations import CASES, REFERENCES, Limits, Problem, load
+from formulations.problem.demands import Demands
 from formulations.proofs.displacement import displacement_bound
 from formulations.proofs.every_motion.horizons import HorizonSearch
 from formulations.proofs.rest_to_rest import rest_to_rest, rest_to_rest_bound
@@ -105,7 +106,7 @@ def holds(problem: Problem) -> None:
     assert outcome.seconds is not None
     assert Fraction(outcome.seconds) <= exact
     assert Fraction(float(np.nextafter(outcome.seconds, np.inf))) > exact
-    assert Fraction(HorizonSearch(problem, None, None).bounds["displacement"]) <= exact
+    assert Fraction(HorizonSearch(Demands.of(problem), None, None).bounds["displacement"]) <= exact
 
 
 @pytest.mark.parametrize("velocity", [1.0, 1e9, np.inf])

@@ -43,8 +43,11 @@ def test_displacement_of_the_cobot_by_hand() -> None:
 
 def test_nothing_that_moves_takes_no_time() -> None:
     still = Problem.of(np.full((4, 2), 0.5), Limits.of(1.0, 1.0, 1.0, dof=2))
-    for reference in REFERENCES.values():
+    for key, reference in REFERENCES.items():
         outcome = reference(still)
+        if key == "toppra_torque":
+            assert outcome.status == "not-applicable"
+            continue
         assert outcome.status == "ok"
         assert outcome.seconds == 0.0
     assert toppra_on(still, family_optimum(still).trajectory).seconds == 0.0
@@ -58,6 +61,9 @@ def test_every_reference_has_the_one_signature(key: str) -> None:
     assert list(inspect.signature(REFERENCES[key]).parameters) == ["problem"]
     outcome = REFERENCES[key](load("sr4c"))
     assert isinstance(outcome, Outcome)
+    if key == "toppra_torque":  # sr4c has no torque limits
+        assert (outcome.status, outcome.note) == ("not-applicable", "no torque limits")
+        return
     assert outcome.status == "ok"
     assert outcome.seconds is not None
     assert outcome.seconds > 0.0

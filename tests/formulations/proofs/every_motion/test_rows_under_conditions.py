@@ -33,7 +33,9 @@ def demands_of(made: Scenario) -> Demands:
     limits = Limits.of(velocity, acceleration, found["jerk"].max(axis=0), dof=len(velocity))
     problem = Problem(found["waypoints"].mean(axis=-1), limits)
     asked = Conditions(stops=frozenset({1}))  # not a plain problem
-    return Demands(problem, asked, **found, cyclic=made.demands["cyclic"])
+    n = len(found["durations"])
+    no_tool = {"tool_speed": np.full(n, np.inf), "tool_radius": np.full(n + 1, np.inf)}
+    return Demands(problem, asked, **found, **no_tool, cyclic=made.demands["cyclic"])
 
 
 def point_of(frame: Frame, made: Scenario) -> Array:
