@@ -54,7 +54,7 @@ def test_zones_and_a_moving_start_bring_the_arrival_forward() -> None:
     assert too_early(ONE, moving) == ""
 
 
-@pytest.mark.parametrize("seed", range(6))
+@pytest.mark.parametrize("seed", [0, *(pytest.param(k, marks=pytest.mark.long) for k in range(1, 6))])
 def test_windows_about_a_motion_are_never_called_impossible(seed: int) -> None:
     rng = np.random.default_rng(seed)
     limits = Limits.of(2.0, 5.0, 20.0, position=(-3.0, 1.0), dof=2)

@@ -57,6 +57,7 @@ def test_a_bound_is_certified_and_no_motion_is_faster(ends: str) -> None:
     assert sum(gains) > 4  # the rows prove more than the boxes
 
 
+@pytest.mark.long  # searches and proofs
 @pytest.mark.parametrize("ends", ENDS)
 @pytest.mark.parametrize("letter", ["R", "P"])
 def test_narrower_boxes_prove_more(ends: str, letter: str) -> None:
@@ -210,6 +211,7 @@ LOOSER: dict[str, Callable[[dict[str, Any]], Any]] = {
 }
 
 
+@pytest.mark.long  # searches and proofs
 @pytest.mark.parametrize("demand", LOOSER)
 def test_a_proof_under_looser_demands_is_refused_where_they_count(demand: str) -> None:
     """The proof is that of the demands: with looser ones it proves less."""

@@ -85,6 +85,7 @@ def test_options_ask_for_the_same_as_the_file(folder: Path) -> None:
     assert by_file["bound"] == pytest.approx(by_options["bound"], rel=1e-9)
 
 
+@pytest.mark.long  # searches and proofs
 def test_the_ladder_and_the_diagnosis_are_those_of_the_conditions(folder: Path) -> None:
     assert main(["solve", "cell.toml", "--json", "ladder.json"]) == 0
     ladder = json.loads(Path("ladder.json").read_text("utf-8"))["ladder"]

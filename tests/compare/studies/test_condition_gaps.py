@@ -7,6 +7,7 @@ import pytest
 from compare.studies.condition_gaps import KINDS, answered, calls, drawn_problem, summarise
 
 
+@pytest.mark.long  # searches and proofs
 @pytest.mark.parametrize("kind", KINDS)
 def test_a_motion_under_a_condition_is_near_its_bound(kind: str) -> None:
     rows = [row for seed in (0, 1) for row in answered(kind, seed)]

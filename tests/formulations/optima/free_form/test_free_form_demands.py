@@ -195,6 +195,7 @@ def pairs(problem: Problem, rng: np.random.Generator) -> dict[str, tuple[Conditi
 _FREE_SPEED = Conditions(end_velocity="free")
 
 
+@pytest.mark.long  # searches and proofs
 @given(seed=st.integers(0, 10_000))
 @settings(max_examples=4, deadline=None)
 def test_loosening_a_demand_never_makes_the_motion_slower(seed: int) -> None:

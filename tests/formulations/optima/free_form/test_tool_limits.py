@@ -45,6 +45,7 @@ def test_a_slider_has_the_velocity_limit_s_and_the_same_bound() -> None:
     assert (least <= np.array([1.0, 0.7]) / 0.6).all()
 
 
+@pytest.mark.long  # searches and proofs
 @given(st.floats(0.15, 1.0), st.floats(1.05, 2.0))
 @settings(max_examples=3, deadline=None)
 def test_a_looser_limit_is_not_slower_and_the_bound_holds(speed: float, more: float) -> None:

@@ -108,6 +108,7 @@ def test_a_problem_carries_its_conditions() -> None:
     )
 
 
+@pytest.mark.long  # searches and proofs
 @given(
     seed=st.integers(0, 10**6),
     key=st.sampled_from(["tolerance", "windows", "segment_times", "waits", "limits"]),
