@@ -22,7 +22,7 @@ from formulations.problem.errors import InputError
 from formulations.problem.problem import Problem
 from formulations.proofs.every_motion.bound import FreeFormBound, free_form_bound
 
-_PROOF = 20.0  # s for the bound, where the time limit leaves more
+_PROOF, _EACH = 20.0, 0.1  # s for the bound, where the time limit leaves more; at least per segment
 
 if TYPE_CHECKING:
     from matplotlib.figure import Figure
@@ -145,7 +145,7 @@ def plan(
     gap : float, default 1e-3
         Relative gap to be reached.
     bound : bool, default True
-        Whether to prove the lower bound too, for which it takes 20 s at the most.
+        Whether to prove the lower bound too, for which it takes 20 s at the most, or 0.1 s per segment.
     time_limit : float, optional [s]
         End after this time, with the best motion that was verified and the best bound that was proved.
     stop : callable, optional
@@ -197,7 +197,7 @@ def plan(
             conditions=asked.without_total(problem),
             gap=gap,
             upper=None if found.trajectory is None else found.seconds,
-            time_limit=deadline.within(_PROOF).left,
+            time_limit=deadline.within(max(_PROOF, _EACH * problem.n_segments)).left,
             stop=stop,
         )
     return PlannedMotion(problem, found, proof)

@@ -24,6 +24,8 @@ from formulations.optima.free_form import SearchStatus
 from formulations.problem.toml_file.plain_conditions import asked_as_json
 from formulations.proofs.status import BoundStatus
 
+_SHOWN = 20  # times of waypoints
+
 _CUT_SHORT = {
     SearchStatus.TIME_LIMIT: "the time limit ended the search",
     SearchStatus.INTERRUPTED: "Ctrl-C ended the search",
@@ -106,8 +108,10 @@ def as_text(problem: Problem, found: FreeForm, bound: FreeFormBound | None = Non
         return lines[0]
     if bound is not None:
         lines.append(_proved(bound, found.conditions.total is not None))
-    passed = ", ".join(f"{time:.6g}" for time in found.trajectory.passage_times)
-    lines.append(f"waypoints passed at {passed} s")
+    passed = [f"{time:.6g}" for time in found.trajectory.passage_times]
+    if len(passed) > _SHOWN:  # --json holds them all
+        passed = [*passed[: _SHOWN // 2], "...", *passed[-_SHOWN // 2 :]]
+    lines.append(f"waypoints passed at {', '.join(passed)} s")
     lines.append("verified: keeps every limit; used most:")
     used = [peak for peak in found.verdict.peaks if peak.quantity != "position"]
     lines += [f"  {peak}" for peak in used[:3]]
