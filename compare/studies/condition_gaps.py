@@ -51,8 +51,10 @@ class ConditionAnswer:
 
     @property
     def gap(self) -> float:
-        """Seconds over the bound, minus 1; infinite without a motion."""
-        return np.inf if self.seconds is None else self.seconds / self.bound - 1.0
+        """Seconds over the bound, minus 1; infinite without a motion, or where nothing is proved."""
+        if self.seconds is None or self.bound == 0.0:
+            return np.inf
+        return self.seconds / self.bound - 1.0
 
 
 def answered(kind: str, seed: int) -> list[ConditionAnswer]:

@@ -30,3 +30,11 @@ def test_a_motion_below_its_bound_would_be_counted() -> None:
     (row,) = answered("wait", 0)
     broken = type(row)(**{**vars(row), "bound": row.seconds * 1.001})
     assert summarise([broken])[0]["below"] == 1
+
+
+def test_a_bound_of_nothing_leaves_an_infinite_gap() -> None:
+    """Zones that all meet: nothing forces the motion to take time."""
+    (row,) = answered("zones", 88)
+    assert row.bound == 0.0
+    assert row.gap == float("inf")
+    assert summarise([row])[0]["near"] == 0
