@@ -6,10 +6,8 @@ import numpy as np
 
 from compare.rivals.pieces import along, from_derivatives
 from compare.rivals.rival import RivalAnswer
-from compare.rivals.spline_path import as_pieces, spline_path
+from compare.rivals.spline_path import as_pieces, grid_of, spline_path
 from formulations.problem.problem import Problem
-
-_GRID = 200  # points per segment
 
 
 def drake_toppra(problem: Problem, seconds: float) -> RivalAnswer:
@@ -41,11 +39,7 @@ def drake_toppra(problem: Problem, seconds: float) -> RivalAnswer:
         frame = body.body_frame()
     plant.Finalize()
     given = PiecewisePolynomial.CubicHermite(path.x, path(path.x).T, path(path.x, 1).T)
-    grid = np.unique(
-        np.concatenate(
-            [np.linspace(a, b, _GRID + 1) for a, b in zip(path.x[:-1], path.x[1:], strict=True)]
-        )
-    )
+    grid = grid_of(path)
     timing = Toppra(given, plant, grid)
     timing.AddJointVelocityLimit(-limits.velocity, limits.velocity)
     if limits.has_acceleration:

@@ -7,7 +7,10 @@ from scipy.interpolate import CubicSpline
 
 from compare.rivals.rival import moving_waypoints
 from formulations import Trajectory
+from formulations.problem.arrays import Array
 from formulations.problem.problem import Problem
+
+_GRID = 200  # intervals per segment
 
 
 def spline_path(problem: Problem) -> CubicSpline:
@@ -43,3 +46,19 @@ def as_pieces(path: CubicSpline) -> Trajectory:
         Its time is the path parameter.
     """
     return Trajectory(np.diff(path.x), np.moveaxis(path.c[::-1], 0, -1).copy())
+
+
+def grid_of(path: CubicSpline) -> Array:
+    """Divide every segment of a path evenly.
+
+    Parameters
+    ----------
+    path : CubicSpline
+
+    Returns
+    -------
+    Array
+        Path parameters at which a timer chooses its speed, each once.
+    """
+    knots = zip(path.x[:-1], path.x[1:], strict=True)
+    return np.unique(np.concatenate([np.linspace(a, b, _GRID + 1) for a, b in knots]))

@@ -10,11 +10,9 @@ import numpy as np
 
 from compare.rivals.pieces import along
 from compare.rivals.rival import RivalAnswer
-from compare.rivals.spline_path import as_pieces, spline_path
+from compare.rivals.spline_path import as_pieces, grid_of, spline_path
 from formulations import Trajectory
 from formulations.problem.problem import Problem
-
-_GRID = 200  # points per segment
 
 
 def toppra_spline(problem: Problem, seconds: float) -> RivalAnswer:
@@ -41,8 +39,7 @@ def toppra_spline(problem: Problem, seconds: float) -> RivalAnswer:
         bounds = np.stack([-limits.acceleration, limits.acceleration], axis=1)
         constraints.append(toppra.constraint.JointAccelerationConstraint(bounds))
     given = toppra.SplineInterpolator(path.x, path(path.x), bc_type="natural")
-    knots = zip(path.x[:-1], path.x[1:], strict=True)
-    grid = np.unique(np.concatenate([np.linspace(a, b, _GRID + 1) for a, b in knots]))
+    grid = grid_of(path)
     algorithm = toppra.algorithm.TOPPRA(constraints, given, gridpoints=grid, solver_wrapper="seidel")
     _, speeds, _ = algorithm.compute_parameterization(0.0, 0.0)
     if speeds is None or not np.isfinite(speeds).all():

@@ -17,7 +17,7 @@ from compare.check_certificate.answers import BadInput, Refused
 from compare.check_certificate.verify import verify
 from compare.screen import table
 from compare.studies.conditioned_problems import KINDS, drawn_problem
-from compare.studies.study import Call, Study
+from compare.studies.study import Call, Study, median_and_largest
 from formulations import (
     NoFeasibleMotion,
     check,
@@ -174,17 +174,13 @@ def summarise(answers: list[ConditionAnswer]) -> list[dict[str, Any]]:
                     sum(
                         a.certified is not None and a.certified >= a.bound * (1.0 - 1e-3) for a in mine
                     ),
-                    _spread([a.gap for a in mine]),
-                    _spread([a.runtime for a in mine]),
-                    _spread([a.proof for a in mine]),
+                    median_and_largest([a.gap for a in mine]),
+                    median_and_largest([a.runtime for a in mine]),
+                    median_and_largest([a.proof for a in mine]),
                 )
             )
         )
     return found
-
-
-def _spread(values: list[float]) -> tuple[float, float]:
-    return float(np.median(values)), max(values)
 
 
 def as_text(answers: list[ConditionAnswer], summary: list[dict[str, Any]]) -> str:

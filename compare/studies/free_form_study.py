@@ -18,7 +18,7 @@ import numpy as np
 from numpy.typing import ArrayLike
 
 from compare.screen import table
-from compare.studies.study import Call, Study
+from compare.studies.study import Call, Study, median_and_largest
 from formulations import (
     CASES,
     REFERENCES,
@@ -266,17 +266,13 @@ def summarise(answers: list[FreeFormAnswer]) -> dict[str, Any]:
             above_stop_and_go=sum(ratio > 1.0 for ratio in ratios),
             below_bound=sum(gap < -1e-9 for gap in gaps),
             not_converged=sum(a.status != "ok" for a in drawn),
-            over_stop_and_go=_spread(ratios) if ratios else None,
-            gap=_spread(gaps),
-            wall=_spread([a.runtime for a in drawn]),
-            cpu=_spread([a.cpu for a in drawn]),
-            proof=_spread([a.proof for a in drawn]),
+            over_stop_and_go=median_and_largest(ratios) if ratios else None,
+            gap=median_and_largest(gaps),
+            wall=median_and_largest([a.runtime for a in drawn]),
+            cpu=median_and_largest([a.cpu for a in drawn]),
+            proof=median_and_largest([a.proof for a in drawn]),
         )
     )
-
-
-def _spread(values: list[float]) -> tuple[float, float]:
-    return float(np.median(values)), max(values)
 
 
 def as_table(answers: list[FreeFormAnswer]) -> str:

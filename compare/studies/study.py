@@ -24,6 +24,7 @@ from typing import Any, ClassVar, Generic, Protocol, TypedDict, TypeVar, get_typ
 
 import matplotlib as mpl
 import matplotlib.pyplot as plt
+import numpy as np
 from matplotlib.figure import Figure
 
 from compare.benchmark.records.provenance import machine, problem_digest, versions_text
@@ -193,6 +194,21 @@ def optima_of(problems: dict[str, Problem]) -> dict[str, float]:
             found[name] = family_optimum(problem).seconds
             advance()
     return found
+
+
+def median_and_largest(values: list[float]) -> tuple[float, float]:
+    """Sum a quantity of many rows up.
+
+    Parameters
+    ----------
+    values : list of float
+        At least one.
+
+    Returns
+    -------
+    (float, float)
+    """
+    return float(np.median(values)), max(values)
 
 
 def _answers(

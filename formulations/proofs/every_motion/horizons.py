@@ -263,12 +263,12 @@ class HorizonSearch:
         """
         least = self.bounds["displacement"] * (1.0 - 1e-12)
         horizon = min(self.known * (1.0 + _BEYOND), self.seconds * (1.0 + _NEAR))
-        joints = self.relaxed(horizon).joints
-        if not len(joints) or not self.seconds > least * (1.0 + 1e-9):
+        relaxed = self.relaxed(horizon)
+        if not len(relaxed.joints) or not self.seconds > least * (1.0 + 1e-9):
             return least, least, self._without_rows()
         with np.errstate(over="ignore", divide="ignore", invalid="ignore"):
             bound, events = bound_with_events(
-                self.relaxed(horizon),
+                relaxed,
                 horizon,
                 self.seconds * (1.0 - 1e-8),
                 self.cuts,
