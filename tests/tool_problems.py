@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import numpy as np
+from scipy.spatial.transform import Rotation
 
 from formulations import Conditions, Problem
 from formulations.arms import load_arm
@@ -51,3 +52,29 @@ def ur5(conditions: Conditions) -> Problem:
     points = np.vstack([points, [1.1, -1.2, 1.3, -0.3, 0.2, 0.1]])
     limits = {"velocity": 3.14, "acceleration": 10.0, "jerk": 100.0}
     return Problem(points, limits, tool=load_arm("ur5").tool, conditions=conditions)
+
+
+def random_chain(rng: np.random.Generator, joints: int, links: int) -> LinkChain:
+    """Links that turn or slide about any axes; some follow the joint of another one by a factor."""
+
+    def pose() -> np.ndarray:
+        found = np.eye(4)
+        found[:3, :3] = Rotation.random(rng=rng).as_matrix()
+        found[:3, 3] = rng.normal(scale=0.3, size=3)
+        return found
+
+    def step(j: int) -> Step:
+        axis = rng.normal(size=3)
+        factor, offset = (1.0, 0.0) if j < joints else (float(rng.normal()), float(rng.normal()))
+        return Step(
+            pose(),
+            pose(),
+            axis / np.linalg.norm(axis),
+            bool(rng.random() < 0.3),
+            j % joints,
+            factor,
+            offset,
+        )
+
+    names = tuple(f"joint {j + 1}" for j in range(joints))
+    return LinkChain(names, tuple(step(j) for j in range(links)), pose())

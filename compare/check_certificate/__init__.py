@@ -15,6 +15,7 @@ sum positive on all of a box (or of a slab of it), no motion is there. Every box
 A bound of every motion, whatever its family, is one such sum of inequalities.
 
 claim, demands, reading the certificate read as exact numbers
+tool                    limits on the tool, and the least times that follow from them
 balls, answers          the arithmetic; the answers
 families                one checker per family: its conditions, and what its events mean
 verify, words           chooses the checker; writes its proof for people

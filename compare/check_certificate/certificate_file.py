@@ -11,7 +11,7 @@ import numpy as np
 
 from compare.check_certificate.answers import BadInput, need
 from compare.check_certificate.claim import FORMAT
-from compare.check_certificate.demands import KEYS
+from compare.check_certificate.demands import KEYS, TOOL
 
 _LARGEST_FILE = 400_000_000  # bytes
 _MOST_LISTS = 10_000_000
@@ -108,14 +108,38 @@ def compare_with(data: Any, file_or_case: str) -> None:
         for key in KEYS:
             ours = [_floats(np.asarray(getattr(one, key)).tolist()) for one in ways]
             need(_floats(demands[key]) in ours, f"demands: {key} differ from those of {file_or_case}")
+        tool = _tool(problem, ways[0]) if ways[0].on_tool else None
+        need(
+            _floats(demands.get(TOOL)) == tool, f"demands: the tool differs from that of {file_or_case}"
+        )
     slack = float.fromhex(data["position_slack"])
     need(slack >= problem.position_slack, "position_slack is less than the check allows")
+
+
+def _tool(problem: Any, demands: Any) -> Any:
+    """The chain to the tool of a problem and the limits on it, under the keys of a certificate."""
+    speed, radius = (_floats(x.tolist()) for x in (demands.tool_speed, demands.tool_radius))
+    links = [
+        {
+            "before": step.before[:3].tolist(),
+            "axis": step.axis.tolist(),
+            "prismatic": step.prismatic,
+            "joint": step.variable,
+            "factor": step.factor,
+            "offset": step.offset,
+            "after": step.after[:3].tolist(),
+        }
+        for step in problem.tool.steps
+    ]
+    return {"chain": links, "end": problem.tool.end[:3].tolist(), "speed": speed, "radius": radius}
 
 
 def _floats(value: Any) -> Any:
     """Nested lists with numbers for hexadecimal text, and null for what is infinite."""
     if isinstance(value, list):
         return [_floats(x) for x in value]
+    if isinstance(value, dict):
+        return {key: _floats(x) for key, x in value.items()}
     if isinstance(value, str):
         return float.fromhex(value)
     return None if isinstance(value, float) and abs(value) == inf else value

@@ -8,6 +8,7 @@ from typing import TYPE_CHECKING, Any
 from compare.check_certificate.answers import BadInput, need
 from compare.check_certificate.balls import Interval, R, least, most
 from compare.check_certificate.reading import items, number
+from compare.check_certificate.tool.least_times import ClaimedTool, read_tool
 
 if TYPE_CHECKING:
     from compare.check_certificate.claim import Claim
@@ -16,6 +17,7 @@ KEYS = (
     "waypoints", "velocity", "acceleration", "jerk", "position", "end_velocity", "end_acceleration",
     "stops", "waits", "durations", "passages", "cyclic",
 )  # fmt: skip
+TOOL = "tool"  # a key beside them, where the tool is limited
 
 
 @dataclass
@@ -28,8 +30,8 @@ class ClaimedDemands:
     intervals per segment. jerk: [n][dof]. end_velocity, end_acceleration: [2][dof], intervals. stops:
     [n + 1], where the motion stands still. waits: [n + 1], for how long [s]. durations: [n], intervals of
     the time from leaving a waypoint to arriving at the next [s]. passages: [n + 1], of arrivals. cyclic:
-    whether position, velocity and acceleration are the same at both ends. plain: from rest to rest through
-    points, nothing else.
+    whether position, velocity and acceleration are the same at both ends. tool: limits on it, if there are any.
+    plain: from rest to rest through points, nothing else.
     """
 
     waypoints: list[list[Interval]]
@@ -44,6 +46,7 @@ class ClaimedDemands:
     durations: list[Interval]
     passages: list[Interval]
     cyclic: bool
+    tool: ClaimedTool | None = None
     plain: bool = False
 
 
@@ -113,8 +116,8 @@ def read_demands(raw: Any, claim: Claim) -> ClaimedDemands:
     """
     if not isinstance(raw, dict):
         raise BadInput(f"demands: {raw!r:.40} is no object")
-    if set(raw) != set(KEYS):
-        odd = sorted(map(str, set(raw) ^ set(KEYS)))
+    if set(raw) - {TOOL} != set(KEYS):
+        odd = sorted(map(str, (set(raw) - {TOOL}) ^ set(KEYS)))
         raise BadInput(f"demands: missing or unknown: {', '.join(odd)[:60]}")
     n, dof = claim.n, claim.dof
 
@@ -145,6 +148,8 @@ def read_demands(raw: Any, claim: Claim) -> ClaimedDemands:
         cyclic=cyclic,
     )
     _require_sense(found, claim)
+    if TOOL in raw:
+        found.tool = read_tool(raw[TOOL], claim.w)
     found.stops = [stop or bool(wait > 0) for stop, wait in zip(stops, found.waits, strict=True)]
     if cyclic:  # one point, with one state
         first, last = found.waypoints[0], found.waypoints[n]

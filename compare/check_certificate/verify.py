@@ -50,7 +50,7 @@ def verify(data: Any, *, show: bool = False) -> str:
     tree = trees[claim.family](claim)
     discards = 0 if tree.void else tree.replay()
     every = isinstance(tree, Relaxation)
-    asked = demands_in_words(tree.demands) if isinstance(tree, Relaxation) else ""
+    asked = demands_in_words(claim.demands()) if every else ""
     words = (
         f"no {'motion' if every else f'{claim.family} motion'} of {str(data.get('name'))[:60]!r}{asked} "
         f"takes {float(claim.L):.12g} s or less "

@@ -15,6 +15,7 @@ from compare.check_certificate.families.every_motion.inequalities import Inequal
 from compare.check_certificate.families.every_motion.relaxation import Relaxation
 from compare.check_certificate.families.every_motion.setting import Variable
 from compare.check_certificate.reading import number
+from compare.check_certificate.tool.words import chain_in_words, tool_in_words
 
 KINDS = {
     "h": "the time assumed",
@@ -62,6 +63,7 @@ def demands_in_words(demands: ClaimedDemands) -> str:
         _count([row != first for row in others], "limits of their own", "segment"),
         "limits that differ by direction" if _one_sided(demands) else "",
         "the same state at both ends" if demands.cyclic else _ends(demands),
+        *tool_in_words(demands.tool),
     ]
     return f" with {', '.join(x for x in found if x)}" if any(found) else ""
 
@@ -113,9 +115,9 @@ def proof_in_words(checker: Relaxation) -> list[str]:
     Returns
     -------
     list of str
-        A line per inequality.
+        A line per inequality, after the chain to a limited tool.
     """
-    lines = []
+    lines = chain_in_words(checker.claim.demands())
     for raw in checker.sum:
         of = KINDS[str(raw[0])]
         if str(raw[0]) in "wmvardk":

@@ -7,7 +7,8 @@
                inside it, ["l", lo, hi] the last segment, for T1 in [lo, hi]
     horizon    null, or for a bound of every motion ("every-motion"): H [s]; its events are those of
                ``every_motion.events``
-    demands    null, or for a bound under conditions the arrays of ``formulations.problem.demands``;
+    demands    null, or for a bound under conditions the arrays of ``formulations.problem.demands``, and
+               ``tool`` where the tool is limited: chain, end, speed, radius;
                ``without`` beside it: inner waypoints that the proof does not need
     events     in depth-first order (see ``events``), the first letter says which:
                ["T"] ["E"] ["S", k, value] ["L", rows] ["B", k, value, rows] ["A", k, value, rows]
@@ -169,7 +170,31 @@ def _of_demands(demands: Demands) -> dict[str, Any]:
             *("end_velocity", "end_acceleration", "waits", "durations", "passages"),
         )
     }
-    return {**found, "stops": demands.stops.tolist(), "cyclic": demands.cyclic}
+    tool = {"tool": _of_tool(demands)} if demands.on_tool else {}
+    return {**found, "stops": demands.stops.tolist(), "cyclic": demands.cyclic, **tool}
+
+
+def _of_tool(demands: Demands) -> dict[str, Any]:
+    """The chain to the tool, pose by pose, and the limits on it."""
+    chain = demands.problem.tool
+    assert chain is not None  # conditions on the tool ask for it
+    return {
+        "chain": [
+            {
+                "before": _hex(step.before[:3]),
+                "axis": _hex(step.axis),
+                "prismatic": bool(step.prismatic),
+                "joint": int(step.variable),
+                "factor": float(step.factor).hex(),
+                "offset": float(step.offset).hex(),
+                "after": _hex(step.after[:3]),
+            }
+            for step in chain.steps
+        ],
+        "end": _hex(chain.end[:3]),
+        "speed": _hex(demands.tool_speed),
+        "radius": _hex(demands.tool_radius),
+    }
 
 
 def _short(problem: Problem, proof: Proof) -> Any:

@@ -206,7 +206,8 @@ def free_form_bound(
     given = problem.conditions if conditions is None else conditions
     asked_for = given.without_torque()
     problem = replace(problem, conditions=problem.conditions.without_torque())
-    demands = with_tool_times(Demands.of(problem, asked_for))
+    stated = Demands.of(problem, asked_for)
+    demands = with_tool_times(stated)
     deadline = Deadline(time_limit, stop)
     zones = (demands.waypoints[..., 0] < demands.waypoints[..., 1]).any()
     search = (ZoneSearch if zones else HorizonSearch)(demands, upper, progress)
@@ -215,7 +216,7 @@ def free_form_bound(
     if record and search.seconds > 0.0:
         left = max(2.0 * time_limit - (time.perf_counter() - started), 0.0)
         seconds, horizon, events = search.certify(Deadline(left, stop))
-        asked = None if search.plain else demands
+        asked = None if search.plain else stated
         certificate = certificate_of(problem, seconds, events, horizon=horizon, demands=asked)
         if asked is not None:
             certificate["without"] = sorted(search.without)

@@ -119,6 +119,7 @@ def _along(u: Array, slopes: list[list[Enclosed]], side: slice, demands: Demands
 def _bent(demands: Demands, chain: LinkChain) -> Array:
     """Bound on the second-order part at each waypoint, (n_segments + 1,)."""
     off = _half_widths(demands)
-    reach = np.abs(demands.waypoints).max(axis=(0, 2))
+    ends = np.concatenate([demands.waypoints, demands.problem.waypoints[..., None]], axis=-1)
+    reach = np.abs(ends).max(axis=(0, 2))  # also between a zone and a waypoint outside it, on a cycle
     both = np.einsum("kj,ji,ki->k", off, curvatures(chain, reach), off)
     return np.asarray(0.5 * both * (1.0 + 1e-12))  # above what rounding takes off

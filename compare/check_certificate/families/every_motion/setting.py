@@ -15,6 +15,7 @@ from compare.check_certificate.balls import Interval, R, least, most, product
 from compare.check_certificate.claim import Claim
 from compare.check_certificate.families.every_motion.course import Leg, course, tighter
 from compare.check_certificate.families.every_motion.implied import ImpliedLimits
+from compare.check_certificate.tool.least_times import with_tool_times
 
 Variable = tuple[Any, ...]
 
@@ -32,7 +33,7 @@ class Setting:
     """
 
     def __init__(self, claim: Claim, H: Any) -> None:
-        self.claim, self.demands = claim, claim.demands()
+        self.claim, self.demands = claim, with_tool_times(claim.demands())
         demands, dof = self.demands, range(claim.dof)
         self.legs = course(demands, claim.without)
         self.ks = list(self.legs)

@@ -1,0 +1,166 @@
+"""The least time of each segment that follows from limits on the tool.
+
+The tool's path from one waypoint to the next is at least as long as the straight line between its ends,
+and no part of it is passed faster than the speed s allowed there. So a segment takes the distance over s.
+Where the waypoints are zones, w and w' points in them, and u the unit vector along p(w') - p(w), the
+distance is at least u (p(w') - p(w)) less what each zone allows along u. A box |q - w| <= D allows
+
+    sum_j |u J_j(w)| D_j + 1/2 sum_jk C_jk D_j D_k
+
+by Taylor's formula, where C bounds the second derivatives of p between w and q. A ball of the tool allows
+its radius.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, replace
+from typing import TYPE_CHECKING, Any
+
+from flint import arb_mat
+
+from compare.check_certificate.answers import BadInput, need
+from compare.check_certificate.balls import R, least, most
+from compare.check_certificate.reading import items, number
+from compare.check_certificate.tool.chain import ClaimedChain, length
+
+if TYPE_CHECKING:
+    from compare.check_certificate.demands import ClaimedDemands
+
+TOOL_KEYS = ("chain", "end", "speed", "radius")
+
+
+@dataclass
+class ClaimedTool:
+    """Limits on the tool, as exact numbers; None stands for no limit.
+
+    chain: from base to tool. points: the waypoints that the balls are about [rad or m]. speed: [n], of the
+    tool on each segment [m/s]. radius: [n + 1], how far the tool may pass that of each waypoint [m].
+    """
+
+    chain: ClaimedChain
+    points: list[list[Any]]
+    speed: list[Any]
+    radius: list[Any]
+
+
+def read_tool(raw: Any, points: list[list[Any]]) -> ClaimedTool:
+    """Read the limits on the tool.
+
+    Parameters
+    ----------
+    raw : object
+        From the file.
+    points : list of list of arb, [n + 1][dof]
+        The waypoints of the claim.
+
+    Returns
+    -------
+    ClaimedTool
+        Checked.
+    """
+    if not isinstance(raw, dict) or set(raw) != set(TOOL_KEYS):
+        raise BadInput(f"demands.tool: it has the keys {', '.join(TOOL_KEYS)}")
+    n = len(points) - 1
+    speed, radius = (
+        [None if x is None else number(x) for x in items(raw[key], size, size)]
+        for key, size in (("speed", n), ("radius", n + 1))
+    )
+    given = [x for x in (*speed, *radius) if x is not None]
+    need(given and all(x > 0 for x in given), "a limit on the tool is not positive, or none is given")
+    return ClaimedTool(
+        ClaimedChain.read(raw["chain"], raw["end"], len(points[0])), points, speed, radius
+    )
+
+
+def with_tool_times(demands: ClaimedDemands) -> ClaimedDemands:
+    """Raise the least times of the segments to those that the tool needs.
+
+    Parameters
+    ----------
+    demands : ClaimedDemands
+        Of a claim.
+
+    Returns
+    -------
+    ClaimedDemands
+        The same where the tool is not limited. Every motion that keeps the demands given keeps these.
+    """
+    if demands.tool is None:
+        return demands
+    pairs = zip(demands.durations, tool_times(demands, demands.tool), strict=True)
+    return replace(demands, durations=[(most(lo, time), hi) for (lo, hi), time in pairs])
+
+
+def tool_times(demands: ClaimedDemands, tool: ClaimedTool) -> list[Any]:
+    """Bound the time of each segment from below by the tool's way at its greatest speed.
+
+    Parameters
+    ----------
+    demands : ClaimedDemands
+        The zones.
+    tool : ClaimedTool
+        Its limits.
+
+    Returns
+    -------
+    list of arb, [n]
+        Exact numbers [s], 0 where the speed is not limited.
+    """
+    ways = tool_ways(demands, tool)
+    times = [R(0) if s is None else way / s for way, s in zip(ways, tool.speed, strict=True)]
+    return [x.lower() for x in times]
+
+
+def tool_ways(demands: ClaimedDemands, tool: ClaimedTool) -> list[Any]:
+    """Bound the tool's way on each segment from below, by the straight distance between its zones.
+
+    Parameters
+    ----------
+    demands : ClaimedDemands
+        The zones.
+    tool : ClaimedTool
+        Its limits.
+
+    Returns
+    -------
+    list of arb, [n]
+        Exact numbers [m], 0 where the speed is not limited.
+    """
+    n, dof = len(tool.speed), range(tool.chain.dof)
+    beside = {i for k in range(n) if tool.speed[k] is not None for i in (k, k + 1)}
+    moved = {i: tool.chain.point_and_slopes(tool.points[i]) for i in beside}
+    off = {
+        i: [
+            most(w - lo, hi - w, R(0))
+            for w, (lo, hi) in zip(tool.points[i], demands.waypoints[i], strict=True)
+        ]
+        for i in beside
+    }
+    bends = tool.chain.bends(_reach(demands, tool))
+
+    def allowed(i: int, u: Any) -> Any:
+        """How far the tool may be nearer to the other end than that of the waypoint."""
+        along = (u * moved[i]).entries()[1:]
+        first = sum((abs(x) * d for x, d in zip(along, off[i], strict=True)), R(0))
+        second = sum((bends[j][k] * off[i][j] * off[i][k] for j in dof for k in dof), R(0)) / 2
+        by_box, radius = first + second, tool.radius[i]
+        return by_box if radius is None else least(by_box, radius)
+
+    def way(k: int) -> Any:
+        step = arb_mat([[moved[k + 1][i, 0] - moved[k][i, 0]] for i in range(3)])
+        middle = arb_mat([[x.mid()] for x in step.entries()])
+        size = length(middle)
+        if not size > 0:
+            return R(0)
+        u = middle.transpose() / size
+        return most((u * step)[0, 0] - allowed(k, u) - allowed(k + 1, u), R(0)).lower()
+
+    return [R(0) if tool.speed[k] is None else way(k) for k in range(n)]
+
+
+def _reach(demands: ClaimedDemands, tool: ClaimedTool) -> list[Any]:
+    """How far from 0 each joint can be at or between a waypoint and a point of its zone."""
+    columns = zip(zip(*tool.points, strict=True), zip(*demands.waypoints, strict=True), strict=True)
+    return [
+        most(*map(abs, points), *(abs(x) for box in boxes for x in box)) for points, boxes in columns
+    ]
