@@ -1,4 +1,4 @@
-"""Certificates under limits on the tool: least times that hold, claims that are refused, words that name the tool."""
+"""Certificates under limits on the tool: least times, claims that are refused, words that name the tool."""
 
 from __future__ import annotations
 
