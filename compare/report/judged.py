@@ -130,6 +130,7 @@ def mending(found: Assessment) -> list[str]:
         "waypoints are missed": judged.missed,
         f"the {kinds} jumps": judged.jumps,
         f"it moves {' and '.join(places)}": places,
+        "something that is asked for is not kept": judged.unkept,
         "times or velocities are asked for": judged.is_paced,
     }
     why = [reason for reason, holds in reasons.items() if holds]

@@ -12,7 +12,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from formulations.motion.files.motion_points import MotionPoints
-from formulations.motion.passages import passages
+from formulations.motion.passages import Balls, passages
 from formulations.motion.peaks import QUANTITIES, Peak, peaks_of_joints
 from formulations.motion.smoothness import TOLERANCE, Jump, jumps, motion_at
 from formulations.motion.tool_check import tool_peaks
@@ -76,7 +76,8 @@ class Judgement:
     missed : tuple of Miss
         Waypoints that are not passed, in their order; at the time asked for, where there is one.
     unkept : tuple of str
-        What else was asked for and is not kept, a line each: windows, times of segments, waits, cycles.
+        What else was asked for and is not kept, a line each: windows, times of segments, waits, cycles,
+        balls of the tool.
     conditions : Conditions
         What was asked for beyond the problem.
     """
@@ -170,7 +171,7 @@ def judge(
     interpolation : {"auto", "linear", "cubic", "quintic"}
         How the controller joins points; ``auto`` takes the highest degree that the points allow.
     tolerance : float, default 1e-4
-        By how much a waypoint may be missed in each joint [rad].
+        By how much a waypoint may be missed in each joint [rad], and a ball of the tool [m].
     conditions : Conditions, optional
         What is asked for; the conditions of the problem if left out. A waypoint with a passage time has to
         be within the tolerance at that time, one with a window at some time within it. The whole motion,
@@ -233,7 +234,10 @@ def judge(
         for k, (early, late) in enumerate(demands.passages)
         if early > 0.0 or np.isfinite(late)
     }
-    passed = passages(trajectory, problem.waypoints, windows, demands.waypoints)
+    balls = None
+    if problem.tool is not None and np.isfinite(demands.tool_radius).any():
+        balls = Balls(problem.tool, problem.waypoints, demands.tool_radius)
+    passed = passages(trajectory, problem.waypoints, windows, demands.waypoints, balls)
     trajectory = Trajectory(trajectory.durations, trajectory.coefficients, passed.times)
     trajectory = from_arrival(demands, trajectory, tolerance)
     peaks = sorted(

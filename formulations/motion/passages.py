@@ -2,16 +2,19 @@
 
 A file holds points, not waypoints. Of all increasing choices of times, one per waypoint from the start to
 the end of the motion, that with the least sum of distances is found: the local minima of the distance to
-each waypoint are the candidates, and dynamic programming chooses among them.
+each waypoint are the candidates, and dynamic programming chooses among them. Where the tool has to pass
+within a ball too, what it is outside of the ball counts as a distance like that of a joint.
 """
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+from collections.abc import Callable, Mapping
 from dataclasses import dataclass
+from functools import partial
 
 import numpy as np
 
+from formulations.kinematics.link_chain import LinkChain
 from formulations.motion.trajectory import Trajectory
 from formulations.problem.arrays import Array
 
@@ -39,11 +42,52 @@ class Passages:
     misses: Array
 
 
+@dataclass(frozen=True)
+class Balls:
+    """Where the tool has to pass the waypoints.
+
+    Attributes
+    ----------
+    chain : LinkChain
+        From base to tool.
+    waypoints : Array, shape (n_waypoints, dof) [rad]
+        At whose tool points the balls are.
+    radius : Array, shape (n_waypoints,) [m]
+        Infinite where there is none.
+    """
+
+    chain: LinkChain
+    waypoints: Array
+    radius: Array
+
+    def outside(self, waypoint: int, positions: Array) -> Array:
+        """Measure how far the tool is outside of a ball.
+
+        Parameters
+        ----------
+        waypoint : int
+            From 0.
+        positions : Array, shape (n, dof) [rad]
+            Of the joints.
+
+        Returns
+        -------
+        Array, shape (n,) [m]
+            0 inside.
+        """
+        if not np.isfinite(self.radius[waypoint]):
+            return np.zeros(len(positions))
+        middle, *at = self.chain.forward(np.vstack([self.waypoints[waypoint], positions]))[:, :3, 3]
+        away = np.linalg.norm(np.reshape(at, (-1, 3)) - middle, axis=1)
+        return np.asarray(np.maximum(away - self.radius[waypoint], 0.0))
+
+
 def passages(
     trajectory: Trajectory,
     waypoints: Array,
     windows: Mapping[int, tuple[float, float]] | None = None,
     boxes: Array | None = None,
+    balls: Balls | None = None,
 ) -> Passages:
     """Find the times at which a motion passes waypoints in their order.
 
@@ -57,6 +101,8 @@ def passages(
         Earliest and latest time at which inner waypoints have to be passed [s]: the misses are those within.
     boxes : Array, shape (n_waypoints, dof, 2) [rad], optional
         Least and greatest position that passes each waypoint; the waypoints themselves if left out.
+    balls : Balls, optional
+        Where the tool has to be when it passes them.
 
     Returns
     -------
@@ -64,7 +110,7 @@ def passages(
         Times and misses; a waypoint that is not passed gets the time of its nearest approach.
     """
     boxes = np.stack([waypoints, waypoints], axis=-1) if boxes is None else boxes
-    candidates = [np.array([0.0]), *_approaches(trajectory, boxes[1:-1])]
+    candidates = [np.array([0.0]), *_approaches(trajectory, boxes, balls)]
     candidates.append(np.array([trajectory.seconds]))
     for waypoint, (early, late) in (windows or {}).items():
         if 0 < waypoint < len(waypoints) - 1:
@@ -73,8 +119,8 @@ def passages(
             inside = times[(times > ends[0]) & (times < ends[1])]
             candidates[waypoint] = np.unique(np.concatenate([ends, inside]))
     distances = [
-        np.abs(_off(trajectory.at(times), box)).max(axis=1)
-        for times, box in zip(candidates, boxes, strict=True)
+        np.abs(_off(at, box)).max(axis=1) + (0.0 if balls is None else balls.outside(k, at))
+        for k, (at, box) in enumerate(zip(map(trajectory.at, candidates), boxes, strict=True))
     ]
     # least sum of distances up to each candidate, and the candidate before it
     cost, before = distances[0], []
@@ -100,21 +146,38 @@ def _off(positions: Array, box: Array) -> Array:
     return np.asarray(positions - np.clip(positions, box[:, 0], box[:, 1]))
 
 
-def _approaches(trajectory: Trajectory, boxes: Array) -> list[Array]:
-    """Times of the nearest local minima of the distance to each box (n, dof, 2) [s]."""
-    if not len(boxes):
+def _approaches(trajectory: Trajectory, boxes: Array, balls: Balls | None) -> list[Array]:
+    """Times of the nearest local minima of the distance to each inner box (n, dof, 2) and its ball [s]."""
+    if len(boxes) < 3:
         return []
     count = int(np.clip(_ALL_SAMPLES // len(trajectory.durations), 2, _SAMPLES))
     steps = np.linspace(0.0, 1.0, count, endpoint=False)
     times = (trajectory.breaks[:-1, None] + trajectory.durations[:, None] * steps).ravel()
     times = np.append(times, trajectory.seconds)
     positions = trajectory.at(times)
-    return [_approaches_of_one(trajectory, box, times, positions) for box in boxes]
+    found = []
+    for k, box in enumerate(boxes[1:-1], 1):
+        ball = None
+        if balls is not None and np.isfinite(balls.radius[k]):
+            ball = partial(balls.outside, k)
+        found.append(_approaches_of_one(trajectory, box, times, positions, ball))
+    return found
 
 
-def _approaches_of_one(trajectory: Trajectory, box: Array, times: Array, positions: Array) -> Array:
+def _approaches_of_one(
+    trajectory: Trajectory,
+    box: Array,
+    times: Array,
+    positions: Array,
+    ball: Callable[[Array], Array] | None,
+) -> Array:
     """Those of one box (dof, 2), both ends included; positions (n_times, dof) at times are known."""
-    distance = np.asarray(np.square(_off(positions, box)).sum(axis=1))
+
+    def size(at: Array) -> Array:
+        joints = np.square(_off(at, box)).sum(axis=1)
+        return np.asarray(joints if ball is None else joints + np.square(ball(at)))
+
+    distance = size(positions)
     padded = np.concatenate([[np.inf], distance, [np.inf]])
     lowest = (distance <= padded[:-2]) & (distance <= padded[2:])
     # of a standstill, the first and the last moment are enough
@@ -125,14 +188,14 @@ def _approaches_of_one(trajectory: Trajectory, box: Array, times: Array, positio
     low, high = times[np.maximum(found - 1, 0)], times[np.minimum(found + 1, len(times) - 1)]
 
     def away(at: Array) -> Array:
-        return np.asarray(np.square(_off(trajectory.at(at), box)).sum(axis=1))
+        return size(trajectory.at(at))
 
     for _ in range(_SECTIONS):
         left, right = low + (high - low) * (1.0 - _GOLDEN), low + (high - low) * _GOLDEN
         is_left = away(left) <= away(right)
         low, high = np.where(is_left, low, left), np.where(is_left, right, high)
     at = 0.5 * (low + high)
-    for _ in range(_NEWTON):  # of the derivative of half the squared distance
+    for _ in range(0 if ball else _NEWTON):  # of the derivative of half the squared distance
         error, speed = _off(trajectory.at(at), box), trajectory.at(at, 1)
         slope = (speed * error).sum(axis=1)
         curvature = np.square(speed).sum(axis=1) + (trajectory.at(at, 2) * error).sum(axis=1)

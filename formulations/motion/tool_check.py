@@ -103,7 +103,7 @@ def tool_speeds(problem: Problem, trajectory: Trajectory, limits: Array) -> Tool
     return tool_speed(problem.tool, trajectory, np.clip(segments, 0, problem.n_segments - 1), limits)
 
 
-def tool_faults(demands: Demands, trajectory: Trajectory) -> Iterator[str]:
+def tool_faults(demands: Demands, trajectory: Trajectory, tolerance: float = 0.0) -> Iterator[str]:
     """Say which balls of the tool are missed.
 
     Parameters
@@ -112,6 +112,8 @@ def tool_faults(demands: Demands, trajectory: Trajectory) -> Iterator[str]:
         Their problem has a chain to the tool, if there are balls.
     trajectory : Trajectory
         The motion; judged where it has a passage time for each waypoint.
+    tolerance : float, default 0 [m]
+        By how much a ball may be missed, beside rounding.
 
     Yields
     ------
@@ -127,7 +129,7 @@ def tool_faults(demands: Demands, trajectory: Trajectory) -> Iterator[str]:
             np.stack([trajectory.at(times[waypoint]), problem.waypoints[waypoint]])
         )[:, :3, 3]
         distance = float(np.linalg.norm(passed - wanted))
-        if distance > radius * (1.0 + TOLERANCE):
+        if distance > radius * (1.0 + TOLERANCE) + tolerance:
             yield (
                 f"passes waypoint {waypoint + 1} with the tool {1e3 * distance:.6g} mm off, "
                 f"{1e3 * radius:.6g} mm allowed"

@@ -1,4 +1,4 @@
-"""What is asked for beyond waypoints and limits, in a motion from elsewhere: stops, waits, times, cycles."""
+"""What is asked for beyond waypoints and limits, in a motion from elsewhere: stops, times, cycles, balls."""
 
 from __future__ import annotations
 
@@ -9,6 +9,7 @@ import numpy as np
 
 from formulations.motion.smoothness import Jump, end_jumps, motion_at
 from formulations.motion.timing import segment_faults, wait_faults
+from formulations.motion.tool_check import tool_faults
 from formulations.motion.trajectory import Trajectory
 from formulations.problem.arrays import Array
 from formulations.problem.demands import Demands
@@ -20,7 +21,7 @@ STILL = 1e-3  # of the velocity and acceleration limits: less counts as standing
 def unkept(
     demands: Demands, trajectory: Trajectory, tolerance: float, smooth: Sequence[Array]
 ) -> Iterator[str]:
-    """Find the times, waits and cycles that are asked for and not kept.
+    """Find the times, waits, cycles and balls of the tool that are asked for and not kept.
 
     Parameters
     ----------
@@ -28,7 +29,7 @@ def unkept(
     trajectory : Trajectory
         With the passages that were found.
     tolerance : float [rad]
-        By how much a waypoint may be missed.
+        By how much a waypoint may be missed, and a ball of the tool [m].
     smooth : sequence of Array, shape (3, dof)
         Relative size of a jump of position, velocity and acceleration that is rounding.
 
@@ -39,6 +40,7 @@ def unkept(
     """
     yield from segment_faults(demands, trajectory, TIME_TOLERANCE)
     yield from wait_faults(demands, trajectory, tolerance, TIME_TOLERANCE)
+    yield from tool_faults(demands, trajectory, tolerance)
     early, late = demands.passages[-1].tolist()
     if early != late and not early - TIME_TOLERANCE <= trajectory.seconds <= late + TIME_TOLERANCE:
         yield f"ends at {trajectory.seconds:.9g} s, [{early:.9g}, {late:.9g}] s asked for"
