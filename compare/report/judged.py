@@ -43,10 +43,12 @@ def opening(found: Assessment) -> list[str]:
     list of str
     """
     judged, count = found.judgement, len(found.problem.waypoints)
-    how = _JOINED.get(judged.interpolation, "exact polynomials")
+    pieces = len(judged.motion.durations)
+    how = _JOINED.get(judged.interpolation)
     lines = [
-        f"{judged.seconds:.6g} s; {how} between {len(judged.motion.durations) + 1} points, "
-        "as a controller joins them",
+        f"{judged.seconds:.6g} s; {pieces} exact polynomial{'s' if pieces > 1 else ''}"
+        if how is None
+        else f"{judged.seconds:.6g} s; {how} between {pieces + 1} points, as a controller joins them",
         f"{count - len(judged.missed)} of {count} waypoints passed within {judged.tolerance:g} rad",
     ]
     if judged.missed_total is not None:

@@ -11,7 +11,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from formulations.motion.files.motion_points import MotionPoints
+from formulations.motion.files.motion_points import MotionPoints, order_of_joints
 from formulations.motion.passages import Balls, passages
 from formulations.motion.peaks import QUANTITIES, Peak, peaks_of_joints
 from formulations.motion.smoothness import TOLERANCE, Jump, jumps, motion_at
@@ -225,6 +225,8 @@ def judge(
         names = names or points.names
         trajectory = points.motion(interpolation)
         method = _DEGREES[trajectory.coefficients.shape[2]]
+    elif interpolation != "auto":
+        raise InputError(f"interpolation: {interpolation!r}: exact pieces are not joined; leave it out")
     else:
         trajectory = motion
     if trajectory.dof != problem.dof:
@@ -297,13 +299,7 @@ def in_order_of(names: tuple[str, ...], points: MotionPoints) -> MotionPoints:
     InputError
         They have other names.
     """
-    if not names or not points.names or points.names == names:
-        return points
-    if set(points.names) != set(names):
-        raise InputError(
-            f"motion: joints {', '.join(points.names)}, the problem has {', '.join(names)}"
-        )
-    return points.in_order(names)
+    return points if order_of_joints(names, points.names) is None else points.in_order(names)
 
 
 def _missed(misses: Array, times: Array, tolerance: float) -> list[Miss]:

@@ -19,7 +19,7 @@ from compare.report.judged import FoundTable, distance, fault_tables, holding, m
 from compare.screen import show, stages, table
 from formulations import InputError
 from formulations.assessment import Assessment, assess
-from formulations.motion.files.motion_file import read_points
+from formulations.motion.files.motion_file import read_points_or_pieces
 from formulations.motion.judgement import WAYPOINT_TOLERANCE
 from formulations.problem.toml_file.plain_conditions import asked_as_json
 
@@ -65,12 +65,12 @@ def check_motion(
     if motion is None:
         raise InputError("MOTION: missing: a problem FILE and MOTION are needed, or MOTION and --robot")
     problem = problem_of(file, own, asked)
-    points = read_points(motion)
+    given = read_points_or_pieces(motion, problem.names)
     with stages(problem.name) as stage:
         stage("extremes, waypoints, bound")
         found = assess(
             problem,
-            points,
+            given,
             interpolation=interpolation,
             tolerance=tolerance,
             bound=bound,

@@ -30,7 +30,7 @@ from compare.screen import stages
 from formulations import Conditions, NoFeasibleMotion, Problem, plan
 from formulations.assessment import Assessment, beside
 from formulations.deadlines import Deadline
-from formulations.motion.files.motion_file import read_points
+from formulations.motion.files.motion_file import read_points_or_pieces
 from formulations.motion.judgement import WAYPOINT_TOLERANCE, judge
 
 _LONGEST, _SHOWN = 80, 40  # characters of the name of a page, and of that of a motion on it
@@ -86,7 +86,7 @@ def view(
     if motion is not None:
         judged = judge(
             problem,
-            read_points(motion),
+            read_points_or_pieces(motion, problem.names),
             interpolation=interpolation,
             tolerance=tolerance,
         )

@@ -12,7 +12,7 @@ from pathlib import Path
 
 from formulations.motion.files.checked import checked
 from formulations.motion.files.formats import JSON, format_to_read, format_to_write, is_pieces
-from formulations.motion.files.motion_points import MotionPoints
+from formulations.motion.files.motion_points import MotionPoints, order_of_joints
 from formulations.motion.files.pieces import holds_pieces, read_pieces, write_pieces
 from formulations.motion.passages import passages as find_passages
 from formulations.motion.trajectory import Trajectory
@@ -181,6 +181,34 @@ def read_points(path: str | Path) -> MotionPoints:
     if not isinstance(found, MotionPoints):
         raise InputError(f"{path}: holds polynomial pieces, not points; read it as a motion")
     return found
+
+
+def read_points_or_pieces(path: str | Path, names: tuple[str, ...] = ()) -> MotionPoints | Trajectory:
+    """Read a motion as its file states it: points that a controller joins, or exact pieces.
+
+    Parameters
+    ----------
+    path : str or Path
+        As in ``read_points``; a file of exact pieces too.
+    names : tuple of str
+        The order of the joints that is wanted for pieces, where the file names its joints.
+
+    Returns
+    -------
+    MotionPoints or Trajectory
+        Points are as the file has them.
+
+    Raises
+    ------
+    InputError
+        Names the file, the place and the value; the pieces are of other joints.
+    """
+    found = decode_motion(path, read_bytes(path, largest=LARGEST))
+    if isinstance(found, MotionPoints):
+        return found
+    motion, own = found
+    order = order_of_joints(names, own)
+    return motion if order is None else replace(motion, coefficients=motion.coefficients[:, order])
 
 
 def read_motion(

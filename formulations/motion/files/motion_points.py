@@ -9,6 +9,7 @@ import numpy as np
 from formulations.motion.interpolation import joined
 from formulations.motion.trajectory import Trajectory
 from formulations.problem.arrays import Array
+from formulations.problem.errors import InputError
 
 
 @dataclass(frozen=True)
@@ -78,3 +79,28 @@ class MotionPoints:
             None if self.accelerations is None else self.accelerations[:, order],
             names,
         )
+
+
+def order_of_joints(wanted: tuple[str, ...], names: tuple[str, ...]) -> list[int] | None:
+    """Find the order in which joints of a motion have to be taken.
+
+    Parameters
+    ----------
+    wanted, names : tuple of str
+        Names of the joints of a problem and of a motion; empty where they have none.
+
+    Returns
+    -------
+    list of int, or None
+        The place of each wanted joint; None where the order is right or there are no names to go by.
+
+    Raises
+    ------
+    InputError
+        They have other names.
+    """
+    if not wanted or not names or wanted == names:
+        return None
+    if set(wanted) != set(names):
+        raise InputError(f"motion: joints {', '.join(names)}, the problem has {', '.join(wanted)}")
+    return [names.index(name) for name in wanted]
