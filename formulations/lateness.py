@@ -40,7 +40,7 @@ def too_early(
     -------
     str
         In one line the condition, its time, and the proved earliest one; empty where nothing was proved.
-        Waypoints and segments count from 0, as in the conditions.
+        Waypoints and segments count from 1, as in all that is printed; keys of the conditions from 0.
 
     Examples
     --------
@@ -49,7 +49,7 @@ def too_early(
     >>> from formulations import Conditions, Limits, Problem
     >>> problem = Problem.of([[0.0], [0.5], [1.0]], Limits.of(velocity=10.0, acceleration=4.0, dof=1))
     >>> print(too_early(problem, Conditions(windows={1: (0.0, 0.4)})).partition(", ")[0])
-    conditions.windows: waypoint 1: its latest time is 0.4 s
+    waypoint 2: its latest time (conditions.windows[1]) is 0.4 s
     """
     demands = Demands.of(problem, conditions)
     ends = deadline.within(_PROOF)
@@ -58,7 +58,7 @@ def too_early(
             earliest = _least_time(demands, 0, k, ends)
             if earliest > latest:
                 return (
-                    f"{_key(demands, k)}: waypoint {k}: its latest time is {latest:.9g} s, "
+                    f"waypoint {k + 1}: its latest time ({_key(demands, k)}) is {latest:.9g} s, "
                     f"{earliest - latest:.3g} s before any motion can be there (proved: none arrives before "
                     f"{earliest:.6g} s)"
                 )
@@ -67,7 +67,7 @@ def too_early(
             least = _least_time(demands, k, k + 1, ends)
             if least > greatest:
                 return (
-                    f"conditions.segment_times: segment {k}: its greatest time is {greatest:.9g} s, "
+                    f"segment {k + 1}: its greatest time (conditions.segment_times[{k}]) is {greatest:.9g} s, "
                     f"{least - greatest:.3g} s less than any motion takes (proved: none takes less than "
                     f"{least:.6g} s)"
                 )
@@ -112,7 +112,7 @@ def _key(demands: Demands, waypoint: int) -> str:
     asked = demands.conditions
     if waypoint == demands.problem.n_segments and asked.total is not None:
         return "conditions.total"
-    return f"conditions.{'passage' if waypoint in asked.passage else 'windows'}"
+    return f"conditions.{'passage' if waypoint in asked.passage else 'windows'}[{waypoint}]"
 
 
 def _least_time(demands: Demands, first: int, last: int, deadline: Deadline) -> float:

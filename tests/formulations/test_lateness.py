@@ -19,7 +19,7 @@ ONE = Problem.of([[0.0], [0.5], [1.0]], Limits.of(100.0, A, dof=1))
 def test_a_window_before_the_arm_can_be_there() -> None:
     """0.5 rad from rest, arriving at speed: sqrt(2 0.5 / 4) = 0.5 s."""
     said = too_early(ONE, Conditions(windows={1: (0.1, 0.4)}))
-    assert said.startswith("conditions.windows: waypoint 1: its latest time is 0.4 s, 0.1 s before")
+    assert said.startswith("waypoint 2: its latest time (conditions.windows[1]) is 0.4 s, 0.1 s before")
     assert said.endswith("none arrives before 0.5 s)")
     assert too_early(ONE, Conditions(windows={1: (0.1, 0.501)})) == ""
 
@@ -31,13 +31,18 @@ def test_a_stop_makes_the_arrival_later() -> None:
 
 
 def test_a_total_a_passage_and_a_greatest_time() -> None:
-    assert "conditions.total: waypoint 2: its latest time is 0.9 s, 0.1 s" in too_early(
+    assert "waypoint 3: its latest time (conditions.total) is 0.9 s, 0.1 s" in too_early(
         ONE, Conditions(total=0.9)
     )
-    assert "conditions.passage: waypoint 1" in too_early(ONE, Conditions(passage={1: 0.3}))
+    assert "waypoint 2: its latest time (conditions.passage[1]) is 0.3 s" in too_early(
+        ONE, Conditions(passage={1: 0.3})
+    )
     # the second half, braking to rest from any speed: 0.5 s
     said = too_early(ONE, Conditions(segment_times={1: (0.0, 0.3)}))
-    assert "segment 1: its greatest time is 0.3 s, 0.2 s less than any motion takes" in said
+    assert (
+        "segment 2: its greatest time (conditions.segment_times[1]) is 0.3 s, 0.2 s less than any motion takes"
+        in said
+    )
 
 
 def test_earlier_demands_count() -> None:
@@ -72,7 +77,7 @@ def test_windows_about_a_motion_are_never_called_impossible(seed: int) -> None:
 
 def test_plan_and_the_ladder_say_it() -> None:
     asked = Conditions(windows={1: (0.0, 0.3)})
-    with pytest.raises(NoFeasibleMotion, match=r"waypoint 1: .*none arrives before 0\.5 s"):
+    with pytest.raises(NoFeasibleMotion, match=r"waypoint 2: .*none arrives before 0\.5 s"):
         plan(ONE, conditions=asked)
     found = ladder(replace(ONE, conditions=asked), rungs=["free_form"])
     assert "none arrives before 0.5 s" in found.rungs["free_form"].note
@@ -83,7 +88,7 @@ def test_the_command_says_it_with_the_exit_code_of_bad_input(
 ) -> None:
     assert main(["plan", "sr4c", "--window", "2=0:0.5"]) == 2
     said = capsys.readouterr().err
-    assert "conditions.windows: waypoint 2: its latest time is 0.5 s" in said
+    assert "waypoint 3: its latest time (conditions.windows[2]) is 0.5 s" in said
     assert "proved: none arrives before" in said
 
 

@@ -96,8 +96,8 @@ def require_kept(asked: Conditions) -> None:
     """
     for waypoint in asked.waits:
         raise InputError(
-            f"conditions.waits: waypoint {waypoint}: a file of points cannot hold a wait; write exact pieces "
-            "(.pieces.json)"
+            f"conditions.waits: a file of points cannot hold the wait at waypoint {waypoint + 1}; write exact "
+            "pieces (.pieces.json)"
         )
 
 

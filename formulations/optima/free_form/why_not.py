@@ -51,21 +51,21 @@ def why_not(search: MeshRefinement) -> str:
 
 
 def _nearest(task: ConditionedProblem, motion: ArcMotion) -> list[str]:
-    """What a motion takes for what was asked to be done within a time; waypoints count from 0."""
+    """What a motion takes for what was asked to be done within a time; waypoints count from 1."""
     found = np.concatenate([[0.0], np.cumsum(motion.times)]) + task.waited
     lines = []
     for waypoint, (early, late) in enumerate(task.demands.passages[1:].tolist(), start=1):
         time = found[task.waypoint_of[waypoint]]
         if early == late:
-            lines.append(f"passes waypoint {waypoint} at {time:.9g} s, {late:.9g} s asked for")
+            lines.append(f"passes waypoint {waypoint + 1} at {time:.9g} s, {late:.9g} s asked for")
         elif not early * (1.0 - _MET) <= time <= late * (1.0 + _MET):
             lines.append(
-                f"passes waypoint {waypoint} at {time:.9g} s, [{early:.9g}, {late:.9g}] s asked for"
+                f"passes waypoint {waypoint + 1} at {time:.9g} s, [{early:.9g}, {late:.9g}] s asked for"
             )
     for k, segment in enumerate(task.segments.tolist()):
         greatest = task.durations[k, 1]
         if motion.times[k] > greatest * (1.0 + _MET):
             lines.append(
-                f"takes {motion.times[k]:.9g} s for segment {segment}, at most {greatest:.9g} s asked for"
+                f"takes {motion.times[k]:.9g} s for segment {segment + 1}, at most {greatest:.9g} s asked for"
             )
     return lines

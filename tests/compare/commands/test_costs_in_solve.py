@@ -77,5 +77,8 @@ def test_a_window_that_nothing_keeps(file: str, capsys: pytest.CaptureFixture[st
     """1 rad from rest at 4 rad/s^2, arriving with a speed that no limit forbids: at least sqrt(2 / 4) s."""
     assert main(solved(file, "--window", "1=0:0.5")) == 2
     said = capsys.readouterr().err
-    assert "waypoint 1: its latest time is 0.5 s, 0.207 s before any motion can be there" in said
+    assert (
+        "waypoint 2: its latest time (conditions.windows[1]) is 0.5 s, 0.207 s before any motion can be there"
+        in said
+    )
     assert "none arrives before 0.707107 s" in said

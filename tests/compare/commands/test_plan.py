@@ -35,7 +35,7 @@ def test_a_stop_and_a_passage_are_kept_and_the_file_holds_the_motion(
         (("--pass", "2"), "--pass: '2' is not of the form K=T"),
         (("--pass", "2=soon"), "--pass: '2=soon' is not of the form K=T"),
         (("--stop", "9"), "waypoint 9"),
-        (("--total", "10"), "conditions.total; the nearest one found passes waypoint 3 at 14.76"),
+        (("--total", "10"), "conditions.total; the nearest one found passes waypoint 4 at 14.76"),
         (("--total", "nan"), "nan"),
         (("--start-velocity", "1,2"), "--start-velocity: expected 6 finite numbers"),
         (("--start-velocity", "-1,2"), "--start-velocity: expected 6 finite numbers, got '-1,2'"),
@@ -84,7 +84,7 @@ def test_a_task_without_a_solution_is_told_as_a_bad_file_is(capsys: pytest.Captu
     assert main(["plan", "nowhere.toml"]) == 2
     missing = capsys.readouterr().err
     # both: error, what was asked for, the reason; no colon less, no line more
-    assert infeasible.startswith("error: ur5: conditions.total: waypoint 3: its latest time is 10 s")
+    assert infeasible.startswith("error: ur5: waypoint 4: its latest time (conditions.total) is 10 s")
     assert "no motion found" in infeasible
     assert missing.startswith("error: nowhere.toml: no such file")
     assert infeasible.count("\n") == missing.count("\n") == 1

@@ -92,8 +92,8 @@ def test_the_smoothest_motion_is_smoother_than_the_fastest_slowed_down() -> None
 @pytest.mark.parametrize(
     ("asked", "line"),
     [
-        (Conditions(passage={1: 1.0}), "passes waypoint 1 at 3.96"),
-        (Conditions(total=14.0), "passes waypoint 3 at 14.76"),
+        (Conditions(passage={1: 1.0}), "passes waypoint 2 at 3.96"),
+        (Conditions(total=14.0), "passes waypoint 4 at 14.76"),
         (Conditions(total=14.0, stops=frozenset({1})), "conditions.total, conditions.stops"),
     ],
 )
@@ -164,9 +164,9 @@ def test_a_passage_a_little_later_than_that_of_the_fastest_motion_is_met() -> No
 @pytest.mark.long
 def test_a_refusal_names_a_time_that_is_then_possible() -> None:
     problem = ten(1)
-    with pytest.raises(NoFeasibleMotion, match="the nearest one found passes waypoint 5 at") as refusal:
+    with pytest.raises(NoFeasibleMotion, match="the nearest one found passes waypoint 6 at") as refusal:
         free_form(problem, conditions=Conditions(passage={5: 1.0}))
-    least = float(str(refusal.value).split("passes waypoint 5 at ")[1].split(" s")[0])
+    least = float(str(refusal.value).split("passes waypoint 6 at ")[1].split(" s")[0])
     # an oracle: the first five segments, with a stop at their end, are a motion that takes longer
     prefix = Problem.of(problem.waypoints[:6], problem.limits)
     assert least < free_form(prefix).seconds

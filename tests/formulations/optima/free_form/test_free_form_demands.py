@@ -109,10 +109,10 @@ def test_a_least_time_of_a_segment_binds_where_it_is_longer() -> None:
 def test_windows_and_greatest_times_that_are_too_short_name_the_nearest() -> None:
     problem = one([0.0, 1.0], 10.0, 4.0)
     with pytest.raises(
-        NoFeasibleMotion, match=r"waypoint 1 at (1|0\.9999)\S* s, \[0, 0.5\] s asked for"
+        NoFeasibleMotion, match=r"waypoint 2 at (1|0\.9999)\S* s, \[0, 0.5\] s asked for"
     ):
         free_form(problem, conditions=Conditions(windows={1: (0.0, 0.5)}))
-    with pytest.raises(NoFeasibleMotion, match=r"takes (1|0\.9999)\S* s for segment 0, at most 0.7 s"):
+    with pytest.raises(NoFeasibleMotion, match=r"takes (1|0\.9999)\S* s for segment 1, at most 0.7 s"):
         free_form(problem, conditions=Conditions(segment_times={0: (0.0, 0.7)}))
 
 
