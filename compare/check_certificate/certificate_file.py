@@ -108,7 +108,7 @@ def compare_with(data: Any, file_or_case: str) -> None:
         for key in KEYS:
             ours = [_floats(np.asarray(getattr(one, key)).tolist()) for one in ways]
             need(_floats(demands[key]) in ours, f"demands: {key} differ from those of {file_or_case}")
-        tool = _tool(problem, ways[0]) if ways[0].on_tool else None
+        tool = _tool(problem.tool, ways[0]) if ways[0].on_tool else None
         need(
             _floats(demands.get(TOOL)) == tool, f"demands: the tool differs from that of {file_or_case}"
         )
@@ -116,22 +116,12 @@ def compare_with(data: Any, file_or_case: str) -> None:
     need(slack >= problem.position_slack, "position_slack is less than the check allows")
 
 
-def _tool(problem: Any, demands: Any) -> Any:
+def _tool(chain: Any, demands: Any) -> Any:
     """The chain to the tool of a problem and the limits on it, under the keys of a certificate."""
+    from formulations.kinematics.plain_chain import plain_chain
+
     speed, radius = (_floats(x.tolist()) for x in (demands.tool_speed, demands.tool_radius))
-    links = [
-        {
-            "before": step.before[:3].tolist(),
-            "axis": step.axis.tolist(),
-            "prismatic": step.prismatic,
-            "joint": step.variable,
-            "factor": step.factor,
-            "offset": step.offset,
-            "after": step.after[:3].tolist(),
-        }
-        for step in problem.tool.steps
-    ]
-    return {"chain": links, "end": problem.tool.end[:3].tolist(), "speed": speed, "radius": radius}
+    return {**plain_chain(chain), "speed": speed, "radius": radius}
 
 
 def _floats(value: Any) -> Any:

@@ -36,6 +36,7 @@ from typing import Any
 
 import numpy as np
 
+from formulations.kinematics.plain_chain import plain_chain
 from formulations.problem.arrays import Array
 from formulations.problem.demands import Demands
 from formulations.problem.files import write_text
@@ -179,22 +180,19 @@ def _of_tool(demands: Demands) -> dict[str, Any]:
     chain = demands.problem.tool
     assert chain is not None  # conditions on the tool ask for it
     return {
-        "chain": [
-            {
-                "before": _hex(step.before[:3]),
-                "axis": _hex(step.axis),
-                "prismatic": bool(step.prismatic),
-                "joint": int(step.variable),
-                "factor": float(step.factor).hex(),
-                "offset": float(step.offset).hex(),
-                "after": _hex(step.after[:3]),
-            }
-            for step in chain.steps
-        ],
-        "end": _hex(chain.end[:3]),
+        **_hex_all(plain_chain(chain)),
         "speed": _hex(demands.tool_speed),
         "radius": _hex(demands.tool_radius),
     }
+
+
+def _hex_all(value: Any) -> Any:
+    """Plain data with hexadecimal text for floats."""
+    if isinstance(value, dict):
+        return {key: _hex_all(one) for key, one in value.items()}
+    if isinstance(value, list):
+        return [_hex_all(one) for one in value]
+    return value.hex() if isinstance(value, float) else value
 
 
 def _short(problem: Problem, proof: Proof) -> Any:

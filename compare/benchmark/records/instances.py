@@ -9,6 +9,7 @@ from typing import Any
 import numpy as np
 
 from formulations import Limits, Problem
+from formulations.kinematics.plain_chain import chain_of, plain_chain
 from formulations.problem.arrays import Array
 from formulations.problem.toml_file.condition_table import conditions_of_table
 from formulations.problem.toml_file.plain_conditions import asked_as_json, with_infinities
@@ -30,7 +31,7 @@ def plain_problem(problem: Problem) -> dict[str, Any]:
     -------
     dict
         Ready for strict JSON; angles in rad, None for a limit that there is not. Conditions stand in it as in
-        a problem file.
+        a problem file; where they are about the tool, the chain to it stands there too.
     """
     intervals = {key: getattr(problem.limits, key) for key in _INTERVALS}
     return {
@@ -43,7 +44,25 @@ def plain_problem(problem: Problem) -> dict[str, Any]:
             **{key: _listed(value) for key, value in intervals.items() if value is not None},
         },
         **asked_as_json(problem),
+        **tool_as_json(problem),
     }
+
+
+def tool_as_json(problem: Problem) -> dict[str, Any]:
+    """Return the chain to the tool, where conditions are about it.
+
+    Parameters
+    ----------
+    problem : Problem
+
+    Returns
+    -------
+    dict
+        With the key ``tool``, or empty: without such conditions the tool is no part of a problem.
+    """
+    if problem.tool is None or not problem.conditions.on_tool:
+        return {}
+    return {"tool": {"names": list(problem.tool.names), **plain_chain(problem.tool)}}
 
 
 def problem_of(data: dict[str, Any]) -> Problem:
@@ -72,11 +91,12 @@ def problem_of(data: dict[str, Any]) -> Problem:
             **intervals,
         )  # fmt: skip
         waypoints = np.array(data["waypoints"], dtype=np.float64)
-        asked = with_infinities(data.get("conditions", {}))
+        asked, tool = with_infinities(data.get("conditions", {})), data.get("tool")
         return Problem(
             waypoints,
             whole,
             conditions=conditions_of_table(asked, "rad", data["names"], whole, len(waypoints)),
+            tool=None if tool is None else chain_of(tool, tuple(tool["names"])),
             names=data["names"],
             units=data["units"],
             **{key: data[key] for key in _TEXTS},

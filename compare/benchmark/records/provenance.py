@@ -20,6 +20,7 @@ import numpy as np
 
 from compare.benchmark.coordinates import seen_in
 from compare.benchmark.objective import Objective
+from compare.benchmark.records.instances import tool_as_json
 from formulations import Problem
 from formulations.climb import versions
 from formulations.problem.toml_file.plain_conditions import (
@@ -261,7 +262,7 @@ def _imported(module: str, path: Path) -> Iterator[str]:
 
 
 def problem_digest(problem: Problem) -> str:
-    """Return a short hash of what defines a problem: waypoints, limits, conditions and family.
+    """Return a short hash of what defines a problem: waypoints, limits, conditions, limited tool and family.
 
     Parameters
     ----------
@@ -277,6 +278,7 @@ def problem_digest(problem: Problem) -> str:
     data = b"".join(np.ascontiguousarray(part).tobytes() for part in parts)
     if not problem.plain:
         asked = [tables_of_conditions(problem), table_of_limits(limits)]
+        asked += [tool] if (tool := tool_as_json(problem)) else []
         data += json.dumps(without_infinities(asked), sort_keys=True, allow_nan=False).encode()
     return hashlib.sha256(data + problem.family.encode()).hexdigest()[:12]
 

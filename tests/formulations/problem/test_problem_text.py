@@ -9,6 +9,8 @@ import numpy as np
 import pytest
 from conditioned_problems import conditioned_problems
 from hypothesis import HealthCheck, given, settings
+from hypothesis import strategies as st
+from tool_problems import random_chain, two_links
 
 from compare.benchmark.records.instances import instance_digest, plain_problem, problem_of
 from compare.benchmark.records.provenance import problem_digest
@@ -72,3 +74,45 @@ def test_conditions_and_limits_of_one_direction_change_every_fingerprint() -> No
 def test_fingerprints_of_plain_problems_are_those_of_earlier_versions() -> None:
     assert problem_digest(load("sr4c")) == "d80b1c8f6438"
     assert instance_digest(load("sr4c")) == "be73c10459d9a84c"
+
+
+@SLOW
+@given(seed=st.integers(0, 10_000), speed=st.booleans())
+def test_a_stored_problem_under_a_limit_on_the_tool_keeps_its_chain(seed: int, speed: bool) -> None:
+    rng = np.random.default_rng(seed)
+    chain = random_chain(rng, 3, 5)
+    asked = Conditions(
+        tool_speed=0.3 if speed else None,
+        segment_tool_speed={1: 1.0 / 3.0} if speed else {},
+        tool_zones={1: 0.1 / 3.0},
+    )
+    points, limits = rng.normal(size=(3, 3)), {"velocity": 1.0, "acceleration": 2.0}
+    problem = Problem(points, limits, tool=chain, conditions=asked)
+    stored = json.loads(json.dumps(plain_problem(problem), allow_nan=False))
+    again = problem_of(stored)
+    assert again == problem
+    assert again.tool == chain  # to the last bit
+    q = rng.normal(size=(4, 3))
+    np.testing.assert_array_equal(again.tool.forward(q), chain.forward(q))
+    assert instance_digest(again) == instance_digest(problem)
+    # another tool is another problem
+    other = Problem(points, limits, tool=chain.extended([0.0, 0.0, 1e-3]), conditions=asked)
+    assert other != problem
+    for digest in (problem_digest, instance_digest):
+        assert digest(other) != digest(problem) == digest(again)
+
+
+def test_without_conditions_on_it_the_tool_is_no_part_of_what_is_stored() -> None:
+    plain = two_links(Conditions())
+    assert "tool" not in plain_problem(plain)
+    assert problem_of(plain_problem(plain)) == plain
+
+
+def test_a_stored_chain_that_is_spoilt_is_refused() -> None:
+    stored = plain_problem(two_links(Conditions(tool_speed=0.3)))
+    del stored["tool"]["chain"][0]["axis"]
+    with pytest.raises(ValueError, match="not a problem as it is stored: KeyError"):
+        problem_of(stored)
+    without = {key: value for key, value in stored.items() if key != "tool"}
+    with pytest.raises(InputError, match="needs to know where the tool is"):
+        problem_of(without)
