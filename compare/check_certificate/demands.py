@@ -149,7 +149,7 @@ def read_demands(raw: Any, claim: Claim) -> ClaimedDemands:
     )
     _require_sense(found, claim)
     if TOOL in raw:
-        found.tool = read_tool(raw[TOOL], claim.w)
+        found.tool = read_tool(raw[TOOL], claim.w, claim.slack)
     found.stops = [stop or bool(wait > 0) for stop, wait in zip(stops, found.waits, strict=True)]
     if cyclic:  # one point, with one state
         first, last = found.waypoints[0], found.waypoints[n]

@@ -8,7 +8,7 @@
     horizon    null, or for a bound of every motion ("every-motion"): H [s]; its events are those of
                ``every_motion.events``
     demands    null, or for a bound under conditions the arrays of ``formulations.problem.demands``, and
-               ``tool`` where the tool is limited: chain, end, speed, radius;
+               ``tool`` where the tool is limited: chain, end, speed, radius, passes;
                ``without`` beside it: inner waypoints that the proof does not need
     events     in depth-first order (see ``events``), the first letter says which:
                ["T"] ["E"] ["S", k, value] ["L", rows] ["B", k, value, rows] ["A", k, value, rows]
@@ -59,6 +59,7 @@ from formulations.proofs.conditions import (
 from formulations.proofs.events import ABOVE, BELOW, EMPTY, LEAF, SPLIT, TURN, Log
 from formulations.proofs.part import PartBound
 from formulations.proofs.proof import Proof
+from formulations.proofs.tool.passing import places_passed
 
 FORMAT = "timebound certificate 1"
 _LETTER_OF_EVENT = {TURN: "T", EMPTY: "E", LEAF: "L", BELOW: "B", ABOVE: "A", SPLIT: "S"}
@@ -179,10 +180,15 @@ def _of_tool(demands: Demands) -> dict[str, Any]:
     """The chain to the tool, pose by pose, and the limits on it."""
     chain = demands.problem.tool
     assert chain is not None  # conditions on the tool ask for it
+    place = places_passed(demands, chain)
     return {
         **_hex_all(plain_chain(chain)),
         "speed": _hex(demands.tool_speed),
         "radius": _hex(demands.tool_radius),
+        "passes": [
+            [k, int(place.joint[k]), _hex(place.value[[k]]), [_hex(place.a[k]), _hex(place.b[k])]]
+            for k in np.flatnonzero(place.joint >= 0).tolist()
+        ],
     }
 
 

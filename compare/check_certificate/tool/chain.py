@@ -14,12 +14,13 @@ The file's floats are no exact rotations, so no bound takes them for such. L is 
 from __future__ import annotations
 
 from dataclasses import dataclass
+from functools import cached_property
 from typing import Any
 
 from flint import arb_mat
 
 from compare.check_certificate.answers import BadInput, need
-from compare.check_certificate.balls import R, most
+from compare.check_certificate.balls import Interval, R, least, most
 from compare.check_certificate.reading import index, items, number
 
 MOST_STEPS = 200
@@ -122,6 +123,18 @@ class Link:
             number(raw["offset"]),
         )
 
+    @cached_property
+    def cross(self) -> Any:
+        """The matrix of the cross product with the axis."""
+        x, y, z = self.axis.entries()
+        return arb_mat([[0, -z, y], [z, 0, -x], [-y, x, 0]])
+
+    @cached_property
+    def lengthens(self) -> Any:
+        """Bound on the factor by which a turn lengthens a vector."""
+        k = length(self.axis)
+        return (1 + 4 * k * k * most(k * k - 1, R(0))).sqrt()
+
     def on(self, columns: Any, q: list[Any]) -> Any:
         """Apply its motion to a point and to its slopes.
 
@@ -144,10 +157,8 @@ class Link:
             _add(moved, by, self.factor * self.axis)
             return moved
         sine, cosine = own.sin_cos()
-        x, y, z = self.axis.entries()
-        cross = arb_mat([[0, -z, y], [z, 0, -x], [-y, x, 0]])
-        across = cross * columns
-        inward = cross * across
+        across = self.cross * columns
+        inward = self.cross * across
         moved = columns + sine * across + (1 - cosine) * inward
         slope = cosine * across + sine * inward
         _add(moved, by, self.factor * arb_mat([[slope[i, 0]] for i in range(3)]))
@@ -245,7 +256,7 @@ class ClaimedChain:
                 turned = f * k * most(k, R(1))
                 of_point, of_slopes = f * turned * size, [turned * x for x in slopes]
                 added = turned * size
-                stretched((1 + 4 * k * k * most(k * k - 1, R(0))).sqrt())
+                stretched(link.lengthens)
                 slopes[v] = slopes[v] + added
                 for j in joints:
                     bends[v][j] = bends[v][j] + of_slopes[j]
@@ -254,6 +265,75 @@ class ClaimedChain:
             stretched(link.before.size)
             size = size + length(link.before.shift)
         return bends
+
+    def least_along(self, g: Any, joint: int, value: Any, limits: list[Interval], slack: Any) -> Any:
+        """Bound g x from below over all tool points x that are reached with one joint at a value.
+
+        From the base to the tool, poses and known joints are applied to g. A joint that turns by an unknown
+        angle about k keeps the part of g along k, since k R = k; the rest takes off its length times that of
+        R x across k.
+
+        Parameters
+        ----------
+        g : arb_mat, shape (1, 3)
+            In the base's frame.
+        joint : int
+            That is at the value; all others are anywhere.
+        value : arb
+            [rad or m].
+        limits : list of Interval
+            Of the positions; only those of sliding joints count.
+        slack : arb
+            By how much they may be left.
+
+        Returns
+        -------
+        arb
+            [m] times the unit of g. Refuses a sliding joint without limits.
+        """
+        total, across = R(0), self._across(limits, slack)
+        for link, far in zip(self.links, across, strict=True):
+            total, g = total + (g * link.before.shift)[0, 0], g * link.before.linear
+            along = (g * link.axis)[0, 0]
+            if link.prismatic:
+                known = link.joint == joint
+                ends = (value, value) if known else _within(limits[link.joint], slack)
+                total += least(*(along * (link.factor * x + link.offset) for x in ends))
+            elif link.joint == joint:
+                sine, cosine = (link.factor * value + link.offset).sin_cos()
+                turned = g * link.cross
+                g = g + sine * turned + (1 - cosine) * (turned * link.cross)
+            else:
+                kept = (along / length(link.axis) ** 2) * link.axis.transpose()
+                total -= length((g - kept).transpose()) * far
+                g = kept
+            total, g = total + (g * link.after.shift)[0, 0], g * link.after.linear
+        return total + (g * self.end.shift)[0, 0]
+
+    def _across(self, limits: list[Interval], slack: Any) -> list[Any]:
+        """Bound, for each link, how far the tool is from its axis once it has turned."""
+        size, found = length(self.end.shift), []
+        for link in reversed(self.links):
+            shift, k = link.after.shift, link.axis
+            beside = shift - ((shift.transpose() * k)[0, 0] / length(k) ** 2) * k
+            found.append(link.lengthens * (length(beside) + link.after.size * size))
+            size = length(shift) + link.after.size * size
+            if link.prismatic:
+                ends = _within(limits[link.joint], slack)
+                size += most(*(abs(link.factor * x + link.offset) for x in ends)) * length(k)
+            else:
+                size = link.lengthens * size
+            size = length(link.before.shift) + link.before.size * size
+        return found[::-1]
+
+
+def _within(limits: Interval, slack: Any) -> Interval:
+    """The positions that a joint may have."""
+    lo, hi = limits
+    need(
+        lo is not None and hi is not None, "a joint that slides has no limits: the tool may be anywhere"
+    )
+    return lo - slack, hi + slack
 
 
 def length(vector: Any) -> Any:
@@ -269,7 +349,10 @@ def length(vector: Any) -> Any:
     arb
         Its Euclidean length.
     """
-    return sum((x * x for x in vector.entries()), R(0)).sqrt()
+    square = sum((x * x for x in vector.entries()), R(0))
+    if square > 0:
+        return square.sqrt()
+    return R(0).union(square.upper().sqrt())  # a ball about 0 may reach below it
 
 
 def _add(columns: Any, at: int, vector: Any) -> None:

@@ -9,24 +9,46 @@ distance is at least u (p(w') - p(w)) less what each zone allows along u. A box 
 
 by Taylor's formula, where C bounds the second derivatives of p between w and q. A ball of the tool allows
 its radius.
+
+The claim may name places that the tool cannot avoid on a segment: a joint that goes from below to above the
+values c_1 < c_2 < ... (or from above to below) is at each of them in this order. Let x_i be the tool points
+there. With vectors a_0, a_1, ..., none longer than 1, the tool's way is at least
+
+    a_0 (x_1 - p(w)) + a_1 (x_2 - x_1) + ... = sum_i (a_{i-1} - a_i) x_i - a_0 p(w) + a_m p(w'),
+
+and each (a_{i-1} - a_i) x_i is bounded over all points that the chain reaches with this joint at c_i.
 """
 
 from __future__ import annotations
 
 from dataclasses import dataclass, replace
+from itertools import pairwise
 from typing import TYPE_CHECKING, Any
 
 from flint import arb_mat
 
 from compare.check_certificate.answers import BadInput, need
 from compare.check_certificate.balls import R, least, most
-from compare.check_certificate.reading import items, number
+from compare.check_certificate.reading import index, items, number
 from compare.check_certificate.tool.chain import ClaimedChain, length
 
 if TYPE_CHECKING:
     from compare.check_certificate.demands import ClaimedDemands
 
-TOOL_KEYS = ("chain", "end", "speed", "radius")
+TOOL_KEYS = ("chain", "end", "speed", "radius", "passes")
+MOST_PLACES = 100  # on one segment
+
+
+@dataclass
+class Places:
+    """The places that the tool has to pass on a segment.
+
+    joint: that passes the values. vectors: one more than values, arb_mat (1, 3).
+    """
+
+    joint: int
+    values: list[Any]
+    vectors: list[Any]
 
 
 @dataclass
@@ -35,15 +57,18 @@ class ClaimedTool:
 
     chain: from base to tool. points: the waypoints that the balls are about [rad or m]. speed: [n], of the
     tool on each segment [m/s]. radius: [n + 1], how far the tool may pass that of each waypoint [m].
+    places: by segment. slack: how far positions may leave their limits.
     """
 
     chain: ClaimedChain
     points: list[list[Any]]
     speed: list[Any]
     radius: list[Any]
+    places: dict[int, Places]
+    slack: Any
 
 
-def read_tool(raw: Any, points: list[list[Any]]) -> ClaimedTool:
+def read_tool(raw: Any, points: list[list[Any]], slack: Any) -> ClaimedTool:
     """Read the limits on the tool.
 
     Parameters
@@ -52,6 +77,8 @@ def read_tool(raw: Any, points: list[list[Any]]) -> ClaimedTool:
         From the file.
     points : list of list of arb, [n + 1][dof]
         The waypoints of the claim.
+    slack : arb
+        By how much positions may leave their limits [rad or m].
 
     Returns
     -------
@@ -67,9 +94,21 @@ def read_tool(raw: Any, points: list[list[Any]]) -> ClaimedTool:
     )
     given = [x for x in (*speed, *radius) if x is not None]
     need(given and all(x > 0 for x in given), "a limit on the tool is not positive, or none is given")
-    return ClaimedTool(
-        ClaimedChain.read(raw["chain"], raw["end"], len(points[0])), points, speed, radius
-    )
+    chain = ClaimedChain.read(raw["chain"], raw["end"], len(points[0]))
+    places = {
+        index(k, n): _places(index(j, chain.dof), values, vectors)
+        for k, j, values, vectors in (items(row, 4, 4) for row in items(raw["passes"], 0, n))
+    }
+    return ClaimedTool(chain, points, speed, radius, places, slack)
+
+
+def _places(joint: int, values: Any, vectors: Any) -> Places:
+    """Read places; vectors that are longer than 1 are refused."""
+    numbers = [number(x) for x in items(values, 1, MOST_PLACES)]
+    steps = items(vectors, len(numbers) + 1, len(numbers) + 1)
+    found = [arb_mat([[number(x) for x in items(row, 3, 3)]]) for row in steps]
+    need(all(length(x.transpose()) <= 1 for x in found), "a vector of the tool's places is too long")
+    return Places(joint, numbers, found)
 
 
 def with_tool_times(demands: ClaimedDemands) -> ClaimedDemands:
@@ -112,7 +151,7 @@ def tool_times(demands: ClaimedDemands, tool: ClaimedTool) -> list[Any]:
 
 
 def tool_ways(demands: ClaimedDemands, tool: ClaimedTool) -> list[Any]:
-    """Bound the tool's way on each segment from below, by the straight distance between its zones.
+    """Bound the tool's way on each segment from below, by the straight line and by the places it passes.
 
     Parameters
     ----------
@@ -146,14 +185,29 @@ def tool_ways(demands: ClaimedDemands, tool: ClaimedTool) -> list[Any]:
         by_box, radius = first + second, tool.radius[i]
         return by_box if radius is None else least(by_box, radius)
 
+    def point(i: int) -> Any:
+        return arb_mat([[moved[i][row, 0]] for row in range(3)])
+
+    def by_places(k: int, places: Places) -> Any:
+        """The way by the places of a segment."""
+        _require_passed(demands, k, places)
+        first, last = places.vectors[0], places.vectors[-1]
+        total = (last * point(k + 1))[0, 0] - (first * point(k))[0, 0]
+        for value, a, b in zip(places.values, places.vectors, places.vectors[1:], strict=False):
+            limits = demands.position[k]
+            total += tool.chain.least_along(a - b, places.joint, value, limits, tool.slack)
+        return total - allowed(k, first) - allowed(k + 1, last)
+
     def way(k: int) -> Any:
-        step = arb_mat([[moved[k + 1][i, 0] - moved[k][i, 0]] for i in range(3)])
+        step = point(k + 1) - point(k)
         middle = arb_mat([[x.mid()] for x in step.entries()])
-        size = length(middle)
-        if not size > 0:
-            return R(0)
-        u = middle.transpose() / size
-        return most((u * step)[0, 0] - allowed(k, u) - allowed(k + 1, u), R(0)).lower()
+        size, ways = length(middle), [R(0)]
+        if size > 0:
+            u = middle.transpose() / size
+            ways.append((u * step)[0, 0] - allowed(k, u) - allowed(k + 1, u))
+        if k in tool.places:
+            ways.append(by_places(k, tool.places[k]))
+        return most(*ways).lower()
 
     return [R(0) if tool.speed[k] is None else way(k) for k in range(n)]
 
@@ -164,3 +218,13 @@ def _reach(demands: ClaimedDemands, tool: ClaimedTool) -> list[Any]:
     return [
         most(*map(abs, points), *(abs(x) for box in boxes for x in box)) for points, boxes in columns
     ]
+
+
+def _require_passed(demands: ClaimedDemands, k: int, places: Places) -> None:
+    """Refuse places that the joint need not pass on a segment, in this order."""
+    (a, b), (c, d) = (demands.waypoints[i][places.joint] for i in (k, k + 1))
+    need(
+        all(bool(x <= y) for x, y in pairwise([b, *places.values, c]))
+        or all(bool(x >= y) for x, y in pairwise([a, *places.values, d])),
+        "a joint need not pass the values of the tool's places",
+    )

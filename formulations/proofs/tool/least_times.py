@@ -1,13 +1,14 @@
-"""The least time of each segment under a limit of the tool's speed: its straight distance at that speed.
+"""The least time of each segment under a limit of the tool's speed: its shortest way at that speed.
 
-The tool's path from one waypoint to the next is at least as long as the straight line between them. Where a
-waypoint is a zone, let u be a unit vector along the line between the tool points of the waypoints
-themselves, at a distance of d. In a box |q - w| <= D of the joints, Taylor's formula gives
+The tool's path from one waypoint to the next is at least as long as the straight line between them, and as the
+way by a place that it has to pass (``passing``). With vectors a at the start and b at the end, no longer
+than 1, either is at least b p' - a p + c: along the line a = b and c = 0. Where a waypoint is a zone, p and
+p' are those of the waypoints w themselves. In a box |q - w| <= D of the joints, Taylor's formula gives
 
     |u (p(q) - p(w))| <= sum_j |u J_j(w)| D_j + 1/2 sum_jk C_jk D_j D_k,
 
 with C from ``kinematics.reach_bounds.curvatures``; in a ball of the tool, it is at most the radius. What is
-left of d, less both, is a lower bound on the distance. All of it is computed in intervals rounded outward.
+left of the way, less both, is a lower bound. All of it is computed in intervals rounded outward.
 """
 
 from __future__ import annotations
@@ -23,6 +24,7 @@ from formulations.problem.arrays import Array
 from formulations.problem.demands import Demands
 from formulations.proofs.arithmetic.intervals import down, up
 from formulations.proofs.tool.enclosed import Enclosed, Sloped, sloped_cosine, sloped_sine
+from formulations.proofs.tool.passing import places_passed
 
 
 def with_tool_times(demands: Demands) -> Demands:
@@ -69,12 +71,25 @@ def tool_least_times(demands: Demands) -> Array:
     # a vector of length at most 1 will do: the distance along it is no longer than the distance
     u = middles / np.where(lengths > 0.0, lengths, 1.0) * (1.0 - 1e-14)
     distance = u[0] * steps[0] + u[1] * steps[1] + u[2] * steps[2]
-    bent = _bent(demands, chain)
-    least = distance.low
-    for side in (slice(None, -1), slice(1, None)):
-        moved = _along(u, slopes, side, demands) + Enclosed.of(bent[side])
-        away = np.minimum(moved.high, demands.tool_radius[side])
-        least = down(least - away)
+    bent, before, after = _bent(demands, chain), slice(None, -1), slice(1, None)
+
+    def less_zones(way: Array, a: Array, b: Array) -> Array:
+        """A way less what both zones take off along a and b."""
+        for side, direction in ((before, a), (after, b)):
+            moved = _along(direction, slopes, side, demands) + Enclosed.of(bent[side])
+            way = down(way - np.minimum(moved.high, demands.tool_radius[side]))
+        return way
+
+    place = places_passed(demands, chain)
+    a, b = place.a.T, place.b.T
+    start, end = (
+        sum((direction[i] * Enclosed(c.low[side], c.high[side]) for i, c in enumerate(points)), zero)
+        for side, direction in ((before, a), (after, b))
+        for zero in (Enclosed.of(np.zeros(len(speed))),)
+    )
+    by_place = down((end - start).low + np.where(place.joint < 0, 0.0, place.along))
+    least = np.where(place.joint < 0, 0.0, less_zones(by_place, a, b))
+    least = np.maximum(least, less_zones(distance.low, u, u))
     with np.errstate(divide="ignore"):
         return np.asarray(np.maximum(down(np.maximum(least, 0.0) / speed), 0.0))
 
