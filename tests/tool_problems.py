@@ -54,7 +54,7 @@ def ur5(conditions: Conditions) -> Problem:
     return Problem(points, limits, tool=load_arm("ur5").tool, conditions=conditions)
 
 
-def random_chain(rng: np.random.Generator, joints: int, links: int) -> LinkChain:
+def random_chain(rng: np.random.Generator, joints: int, links: int, slides: float = 0.3) -> LinkChain:
     """Links that turn or slide about any axes; some follow the joint of another one by a factor."""
 
     def pose() -> np.ndarray:
@@ -70,7 +70,7 @@ def random_chain(rng: np.random.Generator, joints: int, links: int) -> LinkChain
             pose(),
             pose(),
             axis / np.linalg.norm(axis),
-            bool(rng.random() < 0.3),
+            bool(rng.random() < slides),
             j % joints,
             factor,
             offset,

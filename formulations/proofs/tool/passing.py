@@ -133,6 +133,16 @@ def least_along(
     """
     slack = 1.01 * demands.problem.position_slack  # more than the limits allow
     low, high = np.moveaxis(demands.position[segments] + slack * np.array([-1.0, 1.0]), -1, 0)
+    with np.errstate(invalid="ignore"):  # infinite positions times 0
+        found = _least_within(chain, (low, high), g, joint, value)
+    return np.where(np.isfinite(found), found, -np.inf)
+
+
+def _least_within(
+    chain: LinkChain, positions: tuple[Array, Array], g: Array, joint: int, value: Array
+) -> Array:
+    """The bound of ``least_along`` within positions (m, dof); not finite where some are not."""
+    low, high = positions
     across, size = _distances(chain, np.maximum(np.abs(low), np.abs(high)))
     total = -_ROUNDING * size * np.linalg.norm(g, axis=1)
     for place, link in enumerate(chain.steps):
@@ -142,8 +152,7 @@ def least_along(
         along = g @ link.axis
         if link.prismatic:
             ends = (value, value) if known else (low[:, link.variable], high[:, link.variable])
-            moved = [np.where(along == 0.0, 0.0, along * (link.factor * x + link.offset)) for x in ends]
-            total = total + np.minimum(*moved)
+            total = total + np.minimum(*(along * (link.factor * x + link.offset) for x in ends))
         elif known:
             angle = (link.factor * value + link.offset)[:, None]
             turned = np.cross(link.axis, g)
@@ -155,8 +164,7 @@ def least_along(
             g = kept
         total = total + g @ link.after[:3, 3]
         g = g @ link.after[:3, :3]
-    found = total + g @ chain.end[:3, 3]
-    return np.where(np.isfinite(found), found, -np.inf)
+    return np.asarray(total + g @ chain.end[:3, 3])
 
 
 def _distances(chain: LinkChain, reach: Array) -> tuple[list[Array], Array]:

@@ -13,6 +13,7 @@ from tool_problems import LIMITS, hinge, planar, slider, two_links, ur5
 from formulations import Conditions, Problem, UnsupportedProblem, check, free_form, free_form_bound
 from formulations.problem.demands import Demands
 from formulations.proofs.tool.least_times import tool_least_times, with_tool_times
+from formulations.proofs.tool.passing import places_passed
 
 
 @pytest.mark.parametrize("lever", [0.25, 0.8])
@@ -98,11 +99,19 @@ def test_no_two_points_of_zones_are_nearer_than_the_bound_says(
     low, high = demands.waypoints[..., 0], demands.waypoints[..., 1]
     assert problem.tool is not None
     home = problem.tool.forward(problem.waypoints)[:, :3, 3]
+    place = places_passed(demands, problem.tool)
     points = problem.tool.forward(rng.uniform(low, high, (400, 3, 6)))[..., :3, 3]
     corners = np.where(rng.random((400, 3, 6)) < 0.5, low, high)
     points = np.concatenate([points, problem.tool.forward(corners)[..., :3, 3]])
     inside = np.linalg.norm(points[:, 1] - home[1], axis=1) <= ball
-    ways = np.linalg.norm(np.diff(points[inside], axis=1), axis=2)
+    points = points[inside]
+    ways = np.linalg.norm(np.diff(points, axis=1), axis=2).min(axis=0)
+    for k in np.flatnonzero(place.joint >= 0):  # all that the arm reaches with this joint at this value
+        joints = rng.uniform(-np.pi, np.pi, (4000, 6))
+        joints[:, place.joint[k]] = place.value[k]
+        x = problem.tool.forward(joints)[:, :3, 3]
+        by = sum(np.linalg.norm(x - points[:100, k + i, None], axis=2) for i in (0, 1))
+        ways[k] = max(ways[k], by.min())
     assert (ways >= least - 1e-12).all()
     assert (with_tool_times(demands).durations[:, 0] >= least).all()
 
