@@ -22,7 +22,8 @@ OURS = "timebound"
 KEEPS, BREAKS, NO_MOTION, UNSUPPORTED = "keeps all", "breaks", "no motion", "cannot be asked"
 _NODES = 8  # of Gauss and Legendre, per piece
 _GAP = 1e-4  # asked of our own bound
-_ROUNDED = 1e-3  # excess over a limit below which it is written as 1 + excess
+_ROUNDED, _KEPT = 1e-3, 1e-9  # excess over a limit between which it is written as 1 + excess
+_UNITS = {"position": "rad", "velocity": "rad/s", "acceleration": "rad/s²"}
 
 
 @dataclass(frozen=True)
@@ -109,7 +110,7 @@ def _faults(found: Judgement) -> list[str]:
         for quantity, mine in _by_quantity(found.violations)
     ]
     words += [
-        f"{quantity} jumps (joint {mine[0].joint + 1}{_more(mine)})"
+        f"{quantity} jumps by {mine[0].size:.1e} {_UNITS[quantity]} (joint {mine[0].joint + 1}{_more(mine)})"
         for quantity, mine in _by_quantity(found.jumps)
     ]
     words += [
@@ -119,7 +120,7 @@ def _faults(found: Judgement) -> list[str]:
     if found.missed:
         worst = max(found.missed, key=lambda m: abs(m.distance))
         words.append(
-            f"misses waypoint {worst.waypoint} by {abs(worst.distance):.3g} rad{_more(found.missed)}"
+            f"misses waypoint {worst.waypoint + 1} by {abs(worst.distance):.3g} rad{_more(found.missed)}"
         )
     words += found.unkept
     if found.missed_total is not None:
@@ -152,7 +153,7 @@ def limit_factor(factor: float) -> str:
         ``1.305``, or ``1 + 1.6e-08``.
     """
     excess = factor - 1.0
-    return f"1 + {excess:.1e}" if 1e-12 < excess < _ROUNDED else f"{factor:.3f}"
+    return f"1 + {excess:.1e}" if _KEPT < excess < _ROUNDED else f"{factor:.3f}"
 
 
 def path_length(motion: Trajectory) -> float:

@@ -9,10 +9,14 @@ from typing import Any
 import numpy as np
 
 from compare.rivals import RIVALS
-from compare.rivals.rows import BREAKS, KEEPS, OURS, RivalRow, answered, version_of
+from compare.rivals.isolated import RivalEnding
+from compare.rivals.rows import BREAKS, KEEPS, OURS, UNSUPPORTED, RivalRow, answered, version_of
 from compare.rivals.shown import as_text
 from compare.studies.study import Call, Study
 from formulations import Problem
+
+NOT_GIVEN = (UNSUPPORTED, RivalEnding.NOT_RUN.value)
+"""Status of a task that a program was not given."""
 
 
 def with_zones(problem: Problem, zone: float) -> Problem:
@@ -117,8 +121,8 @@ class RivalSummary:
 
     tasks: those that it was given. kept, broken, none: motions that keep all, that break something, and tasks
     without a motion; tasks that it cannot be asked for are none of these. over: median and largest time over
-    the fastest motion, of motions that keep all; mended: of those that break something, once slowed down, where
-    that mends them. factor: largest value over a limit. work: median [s].
+    the fastest motion, of motions that keep all; mended: the same of those that break something, once they are
+    slowed down; mendable: how many of them that mends. factor: largest value over a limit. work: median [s].
     """
 
     rival: str
@@ -148,9 +152,7 @@ def summarise(rows: list[RivalRow]) -> list[dict[str, Any]]:
     """
     found = []
     for key in dict.fromkeys(row.rival for row in rows):
-        mine = [
-            row for row in rows if row.rival == key and row.status not in ("cannot be asked", "not run")
-        ]
+        mine = [row for row in rows if row.rival == key and row.status not in NOT_GIVEN]
         kept = [r for r in mine if r.status == KEEPS]
         broken = [r for r in mine if r.status == BREAKS]
         mended = [r.mended / r.fastest for r in broken if r.mended is not None and r.fastest]

@@ -12,13 +12,13 @@ from compare.rivals.rows import KEEPS, OURS, RivalRow, limit_factor
 from compare.screen import table
 
 HEADER = (
-    "task", "program", "time [s]", "over fastest", "over bound", "slowed down [s]", "worst limit", "path [rad]",
-    "off waypoint [rad]", "work [s]", "verdict", "what is broken, and notes",
+    "task", "program", "verdict", "time [s]", "over fastest", "over bound", "slowed down [s]", "worst limit",
+    "work [s]", "path [rad]", "off waypoint [rad]", "what is broken, and notes",
 )  # fmt: skip
-RIGHT = (2, 3, 4, 5, 6, 7, 8, 9)
+RIGHT = (3, 4, 5, 6, 7, 8, 9, 10)
 SUMMARY = (
-    "program", "tasks", "keeps all", "breaks", "no motion", "over fastest: median", "largest",
-    "slowed down: mends", "median", "largest", "worst limit", "work: median [s]",
+    "program", "tasks", "keeps all", "breaks", "no motion", "over fastest: median", "over fastest: largest",
+    "slowed down: mends", "slowed down: median", "slowed down: largest", "worst limit", "work: median [s]",
 )  # fmt: skip
 SUMMARY_RIGHT = tuple(range(1, 12))
 
@@ -56,15 +56,15 @@ def cells(row: RivalRow) -> list[str]:
     return [
         row.problem,
         name_of(row.rival),
+        row.status,
         _number(row.seconds, ".4f"),
         _number(row.over_fastest, ".4f"),
         _number(row.over_bound, ".4f"),
         _number(row.mended, ".4f"),
         "-" if row.factor is None else limit_factor(row.factor),
+        _number(row.computation, ".2f"),
         _number(row.length, ".3f"),
         _number(row.deviation, ".1e"),
-        _number(row.computation, ".2f"),
-        row.status,
         "; ".join(why),
     ]
 
@@ -132,7 +132,7 @@ def as_page(rows: Sequence[RivalRow], summary: Sequence[dict[str, Any]]) -> str:
         "tasks": [(f"task{k}", name, [cells(row)[1:] for row in mine])
                   for k, (name, mine) in enumerate(zip(tasks, by_task, strict=True))],
         "header": HEADER[1:],
-        "right": [index - 1 for index in RIGHT],
+        "left": [index - 1 for index in range(1, len(HEADER)) if index not in RIGHT],
         "summary_header": SUMMARY,
         "summary": [summary_cells(entry) for entry in summary],
         "rivals": list(RIVALS.values()),
