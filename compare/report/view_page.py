@@ -39,8 +39,9 @@ def view_page(viewed: Viewed) -> str:
     motions = _motions(viewed)
     if motions:
         charts["motion"] = motions_chart(problem, motions, viewed.conditions)
-        if given is not None and given.judgement.violations:  # the joint to be shown first
-            charts["motion"]["first"] = given.judgement.violations[0].joint
+        worst = [] if given is None else [one.joint for one in given.judgement.violations]
+        if any(joint >= 0 for joint in worst):  # the joint to be shown first; the tool is none
+            charts["motion"]["first"] = next(joint for joint in worst if joint >= 0)
         if viewed.arm is not None and viewed.arm.dof == problem.dof:
             charts["arm"] = arm_chart(viewed.arm, motions, problem, viewed.conditions)
     context = {
