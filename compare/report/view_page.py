@@ -171,6 +171,8 @@ def _more_lines(viewed: Viewed) -> Sequence[dict[str, Any]]:
                 lines.append((name, found.stretch * found.seconds, "given"))
     if viewed.is_conditional and viewed.seconds is not None:
         lines.append(("motion under the conditions", viewed.seconds, "upper"))
+    if viewed.is_conditional and viewed.bound and viewed.conditions.total is None:
+        lines.append(("bound under the conditions", viewed.bound, "lower"))
     return [
         {"name": name, "seconds": seconds, "kind": kind, "first": True} for name, seconds, kind in lines
     ]

@@ -94,7 +94,7 @@ def summary_cells(entry: dict[str, Any]) -> list[str]:
 
 
 def as_text(rows: Sequence[RivalRow], summary: Sequence[dict[str, Any]]) -> str:
-    """Set all rows as a table, and then a line per program.
+    """Set a table of rows per task, and then a line per program.
 
     Parameters
     ----------
@@ -106,9 +106,31 @@ def as_text(rows: Sequence[RivalRow], summary: Sequence[dict[str, Any]]) -> str:
     -------
     str
     """
-    all_rows = table(HEADER, [cells(row) for row in rows], right=RIGHT)
+    right = [index - 1 for index in RIGHT]
+    parts = []
+    for name, mine in by_task(rows).items():
+        shown = table(HEADER[1:], [cells(row)[1:] for row in mine], right=right)
+        parts.append(f"{name}\n{shown}")
     programs = table(SUMMARY, [summary_cells(entry) for entry in summary], right=SUMMARY_RIGHT)
-    return f"{all_rows}\n\n{programs}"
+    return "\n\n".join([*parts, f"all tasks\n{programs}"])
+
+
+def by_task(rows: Sequence[RivalRow]) -> dict[str, list[RivalRow]]:
+    """Collect the rows of each task.
+
+    Parameters
+    ----------
+    rows : sequence of RivalRow
+
+    Returns
+    -------
+    dict of str to list of RivalRow
+        By name of the task, in the order of first use.
+    """
+    found: dict[str, list[RivalRow]] = {}
+    for row in rows:
+        found.setdefault(row.problem, []).append(row)
+    return found
 
 
 def as_page(rows: Sequence[RivalRow], summary: Sequence[dict[str, Any]]) -> str:
@@ -124,13 +146,12 @@ def as_page(rows: Sequence[RivalRow], summary: Sequence[dict[str, Any]]) -> str:
     -------
     str
     """
-    tasks = list(dict.fromkeys(row.problem for row in rows))
-    by_task = [[row for row in rows if row.problem == name] for name in tasks]
+    tasks = by_task(rows)
     context = {
         "scripts": CHARTS,
-        "charts": {f"task{k}": {"ladder": chart(mine)} for k, mine in enumerate(by_task)},
+        "charts": {f"task{k}": {"ladder": chart(mine)} for k, mine in enumerate(tasks.values())},
         "tasks": [(f"task{k}", name, [cells(row)[1:] for row in mine])
-                  for k, (name, mine) in enumerate(zip(tasks, by_task, strict=True))],
+                  for k, (name, mine) in enumerate(tasks.items())],
         "header": HEADER[1:],
         "left": [index - 1 for index in range(1, len(HEADER)) if index not in RIGHT],
         "summary_header": SUMMARY,

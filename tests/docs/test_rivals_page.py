@@ -63,7 +63,7 @@ def test_its_sentences_are_counted_from_the_rows(maker: dict[str, Any]) -> None:
     assert "**Ruckig, stop and go** keeps all on 2 of 2 tasks, 25 % to 50 % above" in said
     assert (
         "**toppra** keeps all on 0 of 2 tasks. It breaks something on 1: velocity limit (1, up to 1.200) and "
-        "acceleration jumps (1); slowed down, 1 of them keep all, 100 % above the fastest motion. Without a "
-        "motion on 1 (crashed: ended by SIGABRT)."
+        "acceleration jumps (1, up to 3.0e+00 rad/s²); slowed down, 1 of them keep all, 100 % above the "
+        "fastest motion. Without a motion on 1 (crashed: ended by SIGABRT)."
     ) in said
     assert "has the fastest motion that keeps all on 2 of 2 tasks" in said
