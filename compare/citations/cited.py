@@ -1,8 +1,8 @@
 """The registry of citations: what the code calls, by its name, and the papers behind it.
 
-The names are those of ``CASES``, ``FAMILIES``, ``RUNGS``, ``ALGORITHMS`` and ``LIBRARIES``; a test says
-which one is missing. Papers are keys of ``references.bib``. ``OWN`` stands for what is this project's own
-work.
+The names are those of ``CASES``, ``FAMILIES``, ``RUNGS``, ``ALGORITHMS`` and ``LIBRARIES``, and the modules of
+``compare.statistics`` that name papers; a test says which one is missing. Papers are keys of
+``references.bib``. ``OWN`` stands for what is this project's own work.
 """
 
 from __future__ import annotations
@@ -22,6 +22,7 @@ class CitedKind(StrEnum):
     rung = "bound"
     algorithm = "algorithm"
     library = "library"
+    statistic = "statistics of"
 
 
 _NLP = ("andersson2019", "wachter2006")  # CasADi and IPOPT
@@ -50,7 +51,7 @@ CITED: dict[CitedKind, dict[str, tuple[str, ...]]] = {
         "free_form": (*OWN, *_NLP, "berscheid2021"),
         STOP_AND_GO: OWN,
         "ruckig_stop_and_go": ("berscheid2021",),
-        "family_lower": OWN,
+        "family_lower": (*OWN, "verfaillie1996"),
         "family": (*OWN, *_NLP),
         "family_longest_segment": (*OWN, *_NLP),
         "toppra_family_path": ("pham2018",),
@@ -95,6 +96,14 @@ CITED: dict[CitedKind, dict[str, tuple[str, ...]]] = {
         "nevergrad": ("rapin2018",),
         "pymoo": ("blank2020",),
         "scipy": ("virtanen2020",),
+    },
+    CitedKind.statistic: {
+        "pairs": ("vargha2000", "newcombe2006", "holm1979"),
+        "instances": ("demsar2006", "benavoli2016", "dolan2002"),
+        "equivalence": ("benavoli2017", "schuirmann1987", "vargha2000"),
+        "runtimes": ("hansen2021", "wilson1927"),
+        "seeds": ("noether1987",),
+        "medians": ("david2003",),
     },
 }
 """By kind and name: keys of ``references.bib``."""

@@ -19,6 +19,8 @@ from formulations.rungs import usual_rungs
 from metaheuristics import ALGORITHMS
 from metaheuristics.by_name import LIBRARIES
 
+_GRADINGS = ("grade.html", "versus.html")  # pages of timebound grade and versus in their folders
+_OF_GRADINGS = ("pairs", "instances", "equivalence", "runtimes", "seeds")  # their statistics
 _SAME_AS = re.compile(r"that of (\w+)")  # note of a rung that has taken the number of another one
 
 
@@ -43,8 +45,8 @@ def used_by(source: str) -> list[Used]:
     ----------
     source : str
         A shipped case or a problem file: what ``timebound solve`` uses for it. A JSON file that
-        ``timebound solve --json`` wrote: what gave a number. A folder of ``timebound all``: its cases,
-        and what gave a number in its ladders and rows.
+        ``timebound solve --json`` wrote: what gave a number. A folder of ``timebound all``, ``grade`` or
+        ``versus``: its cases, what gave a number in its ladders and rows, and the statistics of a grading.
 
     Returns
     -------
@@ -160,7 +162,9 @@ def _method(rung: str, note: str) -> str:
 def _of_folder(folder: Path) -> list[Used]:
     """What a comparison has used: its ladders, and the swarms of its rows."""
     store = Store(folder)
-    store.settings()  # says in one line that there is no comparison
+    grading = any((folder / page).exists() for page in _GRADINGS)
+    if not grading:
+        store.settings()  # says in one line that there is no comparison
     found = [used for record in store.ladders().values() for used in _of_ladder(record)]
     rows = list(store.iterate_rows())
     origins = {name: str(data.get("origin", "")) for name, data in store.instances().items()}
@@ -168,4 +172,6 @@ def _of_folder(folder: Path) -> list[Used]:
         found += _of_case(origins.get(case, "").removeprefix("perturbed ")) or _of_case(case)
     found += [_cited(CitedKind.family, name) for name in dict.fromkeys(row.family for row in rows)]
     found += used_swarms(dict.fromkeys(row.swarm for row in rows))
+    if grading:
+        found += [_cited(CitedKind.statistic, name) for name in _OF_GRADINGS]
     return list(dict.fromkeys(found))

@@ -18,7 +18,8 @@ def cite(
         str,
         Parameter(
             name="CASE",
-            help="Cases or problem files, answers of timebound solve (.json), or folders of timebound all.",
+            help="Cases or problem files, answers of timebound solve (.json), or folders of timebound all,"
+            " grade or versus.",
             required=True,
         ),
     ],
@@ -28,7 +29,8 @@ def cite(
     """Print BibTeX for exactly the methods and papers that a run has used.
 
     Of a case or a problem file these are what timebound solve uses for it; of an answer of timebound solve
-    and of a folder of timebound all, what gave a number there.
+    and of a folder of timebound all, grade or versus, what gave a number there, and the statistics of a
+    verdict.
     """
     used = [one for source in sources for one in used_by(source)]
     used += used_swarms(swarms or ())

@@ -31,8 +31,11 @@ def sentences(problem: Problem, asked: Conditions) -> list[str]:
 
 def _waypoints(problem: Problem, asked: Conditions) -> Iterator[str]:
     for k, zone in sorted(asked.tolerance.items()):
-        near = ", ".join(problem.amount(value, j, digits=4) for j, value in enumerate(zone))
-        yield f"It passes waypoint {k + 1} within {near} of its joints."
+        near = [problem.amount(value, j, digits=4) for j, value in enumerate(zone)]
+        if len(set(near)) == 1:
+            yield f"It passes waypoint {k + 1} within {near[0]} in each joint."
+        else:
+            yield f"It passes waypoint {k + 1} within {', '.join(near)} of its joints."
     for stop in sorted(asked.stops):
         yield f"It stands still at waypoint {stop + 1}."
     for k, time in sorted(asked.waits.items()):
@@ -61,6 +64,13 @@ def _segments(problem: Problem, asked: Conditions) -> Iterator[str]:
         yield f"Its tool moves at {speed:g} m/s at most from waypoint {k + 1} to {k + 2}."
     for k in sorted(asked.segment_limits):
         yield f"Other limits hold from waypoint {k + 1} to {k + 2}."
+    if asked.torque is not None:
+        load = (
+            ""
+            if asked.torque.payload is None
+            else f", with {asked.torque.payload.mass:g} kg at its end"
+        )
+        yield f"Its motors keep their torque limits{load}."
 
 
 def _ends(problem: Problem, asked: Conditions) -> Iterator[str]:

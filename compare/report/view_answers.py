@@ -146,7 +146,9 @@ def _of_problem(viewed: Viewed) -> list[Answer]:
         detail = "No durations give a faster one: proved." if proved else "Not proved to be the best."
         if seconds and not conditional and viewed.best != "family":
             detail += f" It takes {percent(spline / seconds - 1.0)} longer than the fastest motion."
-        made.append(Answer(f"The best {family} spline takes {spline:.6f}{_S}", detail, "ladder"))
+        text = f"The best {family} spline takes {spline:.6f}{_S}"
+        text += " without the conditions" if conditional else ""
+        made.append(Answer(text, detail, "ladder"))
     held = record["held_up_by"]
     if held and not conditional:
         made.append(Answer("What limits the fastest motion most", _sentence(held[0]), "numbers"))

@@ -16,7 +16,7 @@ from compare.report.frame import CHARTS, environment
 from compare.report.judged import FoundTable, fault_tables, holding, opening
 from compare.report.view_answers import answers_of, headline, what_is_wrong
 from compare.report.viewed import Viewed
-from formulations import RUNGS, Problem
+from formulations import RUNGS, Limits, Problem
 from formulations.motion.verdict import QUANTITIES
 from formulations.problem.joint_words import factors, shown_unit
 
@@ -38,11 +38,12 @@ def view_page(viewed: Viewed) -> str:
     charts = {"ladder": ladder_chart(record, more=_more_lines(viewed))}
     motions = _motions(viewed)
     if motions:
-        charts["motion"] = motions_chart(problem, motions)
-        if given is not None and given.judgement.violations:  # the joint to be shown first
-            charts["motion"]["first"] = given.judgement.violations[0].joint
+        charts["motion"] = motions_chart(problem, motions, viewed.conditions)
+        worst = [] if given is None else [one.joint for one in given.judgement.violations]
+        if any(joint >= 0 for joint in worst):  # the joint to be shown first; the tool is none
+            charts["motion"]["first"] = next(joint for joint in worst if joint >= 0)
         if viewed.arm is not None and viewed.arm.dof == problem.dof:
-            charts["arm"] = arm_chart(viewed.arm, motions)
+            charts["arm"] = arm_chart(viewed.arm, motions, problem, viewed.conditions)
     context = {
         "scripts": CHARTS,
         "charts": {_OF: charts},
@@ -59,7 +60,11 @@ def view_page(viewed: Viewed) -> str:
         "faults": [] if given is None else fault_tables(given),
         "held": None if given is None else holding(given),
         "conditions": sentences(viewed.problem, viewed.conditions),
-        "limits": limits_table(problem),
+        "limits": limits_table(problem, problem.limits),
+        "segment_limits": [
+            (f"From waypoint {k + 1} to {k + 2}", limits_table(problem, limits))
+            for k, limits in sorted(viewed.conditions.segment_limits.items())
+        ],
         "waypoints": waypoints_table(problem),
         "remarks": viewed.remarks,
         "versions": record["versions"],
@@ -67,12 +72,15 @@ def view_page(viewed: Viewed) -> str:
     return environment(Path()).get_template("view.html.j2").render(context)
 
 
-def limits_table(problem: Problem) -> FoundTable:
+def limits_table(problem: Problem, limits: Limits) -> FoundTable:
     """Return the limits of each joint in the problem's units.
 
     Parameters
     ----------
     problem : Problem
+        Its names and units.
+    limits : Limits
+        Of the whole motion, or of a segment.
 
     Returns
     -------
@@ -88,10 +96,10 @@ def limits_table(problem: Problem) -> FoundTable:
     ]
     rows = []
     for j in range(problem.dof):
-        low, high = problem.limits.position[j] / scales[j]
+        low, high = limits.position[j] / scales[j]
         unlimited = np.isinf(low) and np.isinf(high)
         cells = ["none" if unlimited else f"{low:.6g} to {high:.6g}"]
-        cells += [_limit(*interval) for interval in problem.limits.ranges[:, j] / scales[j]]
+        cells += [_limit(*interval) for interval in limits.ranges[:, j] / scales[j]]
         rows.append([_label(problem, j)])
         for order, cell in enumerate(cells):
             alone = len(set(units[order])) == 1 or cell == "none"
@@ -163,6 +171,8 @@ def _more_lines(viewed: Viewed) -> Sequence[dict[str, Any]]:
                 lines.append((name, found.stretch * found.seconds, "given"))
     if viewed.is_conditional and viewed.seconds is not None:
         lines.append(("motion under the conditions", viewed.seconds, "upper"))
+    if viewed.is_conditional and viewed.bound and viewed.conditions.total is None:
+        lines.append(("bound under the conditions", viewed.bound, "lower"))
     return [
         {"name": name, "seconds": seconds, "kind": kind, "first": True} for name, seconds, kind in lines
     ]

@@ -52,13 +52,13 @@ _ALL = (
     Rival(
         "justblend_blends", "justblend, blends", "compare.rivals.justblend_:justblend_blends", "justblend",
         ("justblend",),
-        "straight lines with blended corners, in closed form; here a fifth of the shorter leg is cut",
-        "position limits, or passing a waypoint exactly without a stop",
+        "straight lines with blended corners, in closed form; here the fastest of five widths within the zones",
+        "position limits, or passing a waypoint exactly without a stop", zones=True,
     ),
     Rival(
         "scip", "SCIP", "compare.rivals.scip:scip", "pyscipopt", ("pyscipopt",),
-        "the sum of the segment times over motions of constant jerk on six even steps per segment, globally",
-        "velocity and position limits between the nodes, or a proof that can be checked",
+        "the sum of the segment times over motions of constant jerk on eight even steps per segment, globally",
+        "a proof that can be checked, or of all motions; limits exactly: it has a tolerance",
     ),
     Rival(
         "ruckig", "Ruckig, stop and go", "compare.rivals.ruckig_:ruckig_stops", "ruckig", ("ruckig",),

@@ -1,7 +1,8 @@
 """Drake's KinematicTrajectoryOptimization: one cubic B-spline whose total time is free.
 
-The shares of the time at which the waypoints are passed are not free. They are those of stop and go, and are
-then searched by the method of Nelder and Mead for as long as there is time.
+The shares of the time at which the waypoints are passed are not free. They are those of stop and go (of
+top speed where there is no acceleration limit), and are then searched by the method of Nelder and Mead for as
+long as there is time.
 """
 
 from __future__ import annotations
@@ -16,6 +17,7 @@ from compare.rivals.rival import RivalAnswer
 from formulations import REFERENCES, Trajectory
 from formulations.problem.arrays import Array
 from formulations.problem.problem import Problem
+from formulations.proofs.displacement import displacement_durations
 
 _DEGREE = 3  # the jerk is constant on each piece, as that of the fastest motion is
 _PER_SEGMENT = 10  # control points
@@ -37,7 +39,7 @@ def drake_spline(problem: Problem, seconds: float) -> RivalAnswer:
     """
     over = time.perf_counter() + _SHARE * seconds
     stopping = REFERENCES["ruckig_stop_and_go"](problem).durations
-    lengths = np.ones(problem.n_segments) if stopping is None else np.maximum(stopping, 1e-6)
+    lengths = np.maximum(displacement_durations(problem) if stopping is None else stopping, 1e-6)
     best: list[Trajectory] = []
     tried = 0
 

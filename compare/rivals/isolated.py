@@ -11,7 +11,6 @@ import subprocess
 import sys
 import tempfile
 import time
-from collections.abc import Callable
 from dataclasses import dataclass
 from enum import StrEnum
 from importlib.util import find_spec
@@ -37,7 +36,6 @@ class RivalEnding(StrEnum):
     NOT_RUN = "not run"
     CRASHED = "crashed"
     TIMED_OUT = "timed out"
-    INTERRUPTED = "interrupted"
 
 
 @dataclass(frozen=True)
@@ -64,14 +62,7 @@ def installed(rival: Rival) -> bool:
     return all(find_spec(module.partition(".")[0]) is not None for module in rival.modules)
 
 
-def run_apart(
-    rival: Rival,
-    problem: Problem,
-    *,
-    seconds: float,
-    memory: int,
-    stop: Callable[[], bool] = lambda: False,
-) -> Ran:
+def run_apart(rival: Rival, problem: Problem, *, seconds: float, memory: int) -> Ran:
     """Run a rival in a process of its own.
 
     Parameters
@@ -82,8 +73,6 @@ def run_apart(
         Time limit of its work [s].
     memory : int
         Bytes that it may hold (on Linux).
-    stop : callable
-        Asked again and again whether to end it.
 
     Returns
     -------
@@ -106,23 +95,19 @@ def run_apart(
                 start_new_session=True,  # the terminal's Ctrl-C is for this side
             )  # fmt: skip
             try:
-                ended = _wait(process, folder, seconds, stop)
+                ended = _wait(process, folder, seconds)
             finally:
                 _kill(process)
         return ended or _answer(process.returncode, folder)
 
 
-def _wait(
-    process: subprocess.Popen[bytes], folder: Path, seconds: float, stop: Callable[[], bool]
-) -> Ran | None:
+def _wait(process: subprocess.Popen[bytes], folder: Path, seconds: float) -> Ran | None:
     """Wait until the process has ended; what ended it before that."""
     begun, started = time.monotonic(), None
     while process.poll() is None:
         now = time.monotonic()
         if started is None and (folder / "started").exists():
             started = now
-        if stop():
-            return Ran(RivalEnding.INTERRUPTED, "Ctrl-C")
         if started is None and now - begun > START:
             return Ran(RivalEnding.TIMED_OUT, f"took more than {START:g} s to load")
         if started is not None and now - started > seconds + _GRACE:

@@ -35,7 +35,7 @@ def from_derivatives(value: Callable[[float, int], Array], breaks: Array, degree
     for start, end in itertools.pairwise(breaks):
         middle = 0.5 * (start + end)
         terms = [np.asarray(value(middle, k)).ravel() / factorial(k) for k in range(degree + 1)]
-        pieces.append([_shifted(series, start - middle) for series in np.stack(terms, axis=1)])
+        pieces.append([shifted(series, start - middle) for series in np.stack(terms, axis=1)])
     return Trajectory(np.diff(breaks), np.array(pieces))
 
 
@@ -78,11 +78,23 @@ def along(path: Trajectory, pace: Trajectory) -> Trajectory:
     return Trajectory(np.array(durations), np.array(pieces))
 
 
-def _shifted(series: Array, by: float) -> Array:
-    """Coefficients of p(t + by)."""
+def shifted(series: Array, by: float) -> Array:
+    """Move a polynomial along its axis.
+
+    Parameters
+    ----------
+    series : Array, shape (n,)
+        Coefficients of p, ascending.
+    by : float
+
+    Returns
+    -------
+    Array, shape (n,)
+        Coefficients of p(t + by).
+    """
     found = np.zeros(len(series))
-    shifted = Polynomial(series)(Polynomial([by, 1.0])).coef
-    found[: len(shifted)] = shifted
+    moved = Polynomial(series)(Polynomial([by, 1.0])).coef
+    found[: len(moved)] = moved
     return found
 
 

@@ -31,6 +31,8 @@ class Rival:
         What it cannot be asked for.
     refusal : str
         Why it is not run at all; empty for those that are.
+    zones : bool
+        Whether it passes inner waypoints within zones, and cannot pass them exactly.
     """
 
     key: str
@@ -41,6 +43,7 @@ class Rival:
     optimises: str
     cannot: str
     refusal: str = ""
+    zones: bool = False
 
 
 @dataclass(frozen=True)

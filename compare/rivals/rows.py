@@ -4,21 +4,26 @@ from __future__ import annotations
 
 import importlib.metadata
 import time
-from collections.abc import Callable, Iterator, Sequence
-from dataclasses import asdict, dataclass
+from collections.abc import Callable, Iterable
+from dataclasses import dataclass, replace
 from typing import Any
 
 import numpy as np
 
+from compare.interrupts import ctrl_c_stops
+from compare.rivals import RIVALS
 from compare.rivals.isolated import RivalEnding, run_apart
 from compare.rivals.rival import Rival
 from formulations import NoFeasibleMotion, Problem, Trajectory, plan
-from formulations.motion.judgement import judge
+from formulations.motion.judgement import Judgement, judge
 from formulations.problem.errors import UnsupportedProblem
 
 OURS = "timebound"
 KEEPS, BREAKS, NO_MOTION, UNSUPPORTED = "keeps all", "breaks", "no motion", "cannot be asked"
 _NODES = 8  # of Gauss and Legendre, per piece
+_GAP = 1e-4  # asked of our own bound
+_ROUNDED, _KEPT = 1e-3, 1e-9  # excess over a limit between which it is written as 1 + excess
+_UNITS = {"position": "rad", "velocity": "rad/s", "acceleration": "rad/s²"}
 
 
 @dataclass(frozen=True)
@@ -29,20 +34,24 @@ class RivalRow:
     ----------
     problem, rival, version, status, reason : str
         status: ``keeps all``, ``breaks``, ``no motion``, ``cannot be asked``, or how the process ended.
+    time_limit : float
+        What the program was given [s].
     claimed, seconds : float or None
         The time that the program states, and that of its pieces [s].
-    bound : float or None
-        The proved lower bound of all motions [s].
+    fastest, bound : float or None
+        Of the task: time of the fastest motion that keeps all, and the proved lower bound of all motions [s].
     own_bound : float or None
         The bound that the program itself states, of its own program [s].
+    over_fastest, over_bound : float or None
+        Time over both [1]; below 1 for a motion faster than any that keeps all.
     length, deviation : float or None
         Length of the path in joint space, and the largest distance of a joint from a waypoint [rad].
     factor : float or None
         The largest value over its limit.
     mended : float or None
         Time once slowed down until all is kept [s]; None where no stretch mends the motion.
-    faults : tuple of str
-        All that is broken.
+    faults : str
+        All that is broken, by name, with the largest factor of each quantity.
     computation : float or None
         Seconds of the program's own work.
     """
@@ -52,30 +61,20 @@ class RivalRow:
     version: str
     status: str
     reason: str = ""
+    time_limit: float = 0.0
     claimed: float | None = None
     seconds: float | None = None
+    fastest: float | None = None
     bound: float | None = None
     own_bound: float | None = None
+    over_fastest: float | None = None
+    over_bound: float | None = None
     length: float | None = None
     deviation: float | None = None
     factor: float | None = None
     mended: float | None = None
-    faults: tuple[str, ...] = ()
+    faults: str = ""
     computation: float | None = None
-
-    @property
-    def gap(self) -> float | None:
-        """Time over the proved bound, minus 1; negative for a motion faster than any that keeps all."""
-        return None if self.seconds is None or not self.bound else self.seconds / self.bound - 1.0
-
-    def to_json(self) -> dict[str, Any]:
-        """Return the row as plain data, the gap with it.
-
-        Returns
-        -------
-        dict
-        """
-        return asdict(self) | {"gap": self.gap, "faults": list(self.faults)}
 
 
 def judged(problem: Problem, motion: Trajectory) -> dict[str, Any]:
@@ -92,10 +91,6 @@ def judged(problem: Problem, motion: Trajectory) -> dict[str, Any]:
         The entries of a row that the check knows.
     """
     found = judge(problem, motion, conditions=problem.conditions)
-    faults = [f"{p.quantity} of joint {p.joint + 1} by factor {p.factor:.6g}" for p in found.violations]
-    faults += [f"{j.quantity} of joint {j.joint + 1} jumps {j.count} times" for j in found.jumps]
-    faults += [f"{j.quantity} of joint {j.joint + 1} not zero at rest" for j in found.not_at_rest]
-    faults += [f"misses waypoint {m.waypoint + 1} by {abs(m.distance):.4g}" for m in found.missed]
     away = np.abs(motion.at(found.motion.passage_times) - problem.waypoints).max()
     return {
         "status": KEEPS if found.feasible else BREAKS,
@@ -104,8 +99,61 @@ def judged(problem: Problem, motion: Trajectory) -> dict[str, Any]:
         "deviation": float(away),
         "factor": max((p.factor for p in found.peaks), default=0.0),
         "mended": found.seconds * max(found.stretch, 1.0) if np.isfinite(found.stretch) else None,
-        "faults": tuple(faults),
+        "faults": "; ".join(_faults(found)),
     }
+
+
+def _faults(found: Judgement) -> list[str]:
+    """All that is broken: each quantity with its worst joint and the number of the others."""
+    words = [
+        f"{quantity} {limit_factor(mine[0].factor)} of its limit (joint {mine[0].joint + 1}{_more(mine)})"
+        for quantity, mine in _by_quantity(found.violations)
+    ]
+    words += [
+        f"{quantity} jumps by {mine[0].size:.1e} {_UNITS[quantity]} (joint {mine[0].joint + 1}{_more(mine)})"
+        for quantity, mine in _by_quantity(found.jumps)
+    ]
+    words += [
+        f"{quantity} not zero at rest (joint {mine[0].joint + 1}{_more(mine)})"
+        for quantity, mine in _by_quantity(found.not_at_rest)
+    ]
+    if found.missed:
+        worst = max(found.missed, key=lambda m: abs(m.distance))
+        words.append(
+            f"misses waypoint {worst.waypoint + 1} by {abs(worst.distance):.3g} rad{_more(found.missed)}"
+        )
+    words += found.unkept
+    if found.missed_total is not None:
+        words.append(f"takes {found.seconds:.6g} s, asked for {found.missed_total:.6g} s")
+    return words
+
+
+def _by_quantity(faults: Iterable[Any]) -> list[tuple[str, list[Any]]]:
+    """Faults by their quantity, the worst one of each first, as they come."""
+    found: dict[str, list[Any]] = {}
+    for fault in faults:
+        found.setdefault(fault.quantity, []).append(fault)
+    return list(found.items())
+
+
+def _more(faults: Any) -> str:
+    return f", and {len(faults) - 1} more" if len(faults) > 1 else ""
+
+
+def limit_factor(factor: float) -> str:
+    """Write a value over its limit, so that an excess within rounding is seen.
+
+    Parameters
+    ----------
+    factor : float
+
+    Returns
+    -------
+    str
+        ``1.305``, or ``1 + 1.6e-08``.
+    """
+    excess = factor - 1.0
+    return f"1 + {excess:.1e}" if _KEPT < excess < _ROUNDED else f"{factor:.3f}"
 
 
 def path_length(motion: Trajectory) -> float:
@@ -126,70 +174,46 @@ def path_length(motion: Trajectory) -> float:
     return float(((speed @ weights) * motion.durations / 2.0).sum())
 
 
-def rows(
-    problems: Sequence[Problem],
-    rivals: Sequence[Rival],
-    *,
-    seconds: float,
-    memory: int,
-    stop: Callable[[], bool] = lambda: False,
-    stage: Callable[[str], None] = lambda words: None,
-) -> Iterator[RivalRow]:
-    """Run rivals on tasks, ours first.
+def answered(problem: Problem, key: str, version: str, seconds: float, memory: int) -> list[RivalRow]:
+    """Run one program on one task, as a call of the study.
 
     Parameters
     ----------
-    problems : sequence of Problem
-    rivals : sequence of Rival
+    problem : Problem
+    key : str
+        Of ``RIVALS``, or ``OURS``.
+    version : str
+        Of its package: a stored row of another version is not kept.
     seconds : float
-        Time limit of each run [s].
+        Time limit of its work [s].
     memory : int
-        Bytes that each may hold.
-    stop : callable
-        Whether to end; the run that it ends gives a row, and no further run begins.
-    stage : callable
-        Called with the name of each run as it begins.
+        Bytes that it may hold.
 
-    Yields
-    ------
-    RivalRow
+    Returns
+    -------
+    list of RivalRow
+        One row.
     """
-    for problem in problems:
-        stage(f"{problem.name}: {OURS}")
-        mine = _ours(problem, seconds, stop)
-        yield mine
-        for rival in rivals:
-            if stop():
-                return
-            stage(f"{problem.name}: {rival.name}")
-            yield run_rival(problem, rival, mine.bound, seconds=seconds, memory=memory, stop=stop)
+    if key != OURS:
+        return [run_rival(problem, RIVALS[key], seconds=seconds, memory=memory)]
+    with ctrl_c_stops() as stop:  # the solvers' own code does not hear of Ctrl-C
+        row = _ours(problem, seconds, stop)
         if stop():
-            return
+            raise KeyboardInterrupt
+    return [row]
 
 
-def run_rival(
-    problem: Problem,
-    rival: Rival,
-    bound: float | None,
-    *,
-    seconds: float,
-    memory: int,
-    stop: Callable[[], bool] = lambda: False,
-) -> RivalRow:
+def run_rival(problem: Problem, rival: Rival, *, seconds: float, memory: int) -> RivalRow:
     """Run one rival on one task, and judge what it answers.
 
     Parameters
     ----------
     problem : Problem
     rival : Rival
-    bound : float or None
-        The proved lower bound of all motions [s].
     seconds : float
         Time limit of its work [s].
     memory : int
         Bytes that it may hold.
-    stop : callable
-        Whether to end it now.
 
     Returns
     -------
@@ -198,15 +222,15 @@ def run_rival(
     called: dict[str, Any] = {
         "problem": problem.name,
         "rival": rival.key,
-        "version": version(rival.package),
-        "bound": bound,
+        "version": version_of(rival.package),
+        "time_limit": seconds,
     }
     if not rival.refusal:
         try:
-            problem.require_plain(rival.name)
+            require_askable(problem, rival)
         except UnsupportedProblem as reason:
             return RivalRow(**called, status=UNSUPPORTED, reason=str(reason))
-    ran = run_apart(rival, problem, seconds=seconds, memory=memory, stop=stop)
+    ran = run_apart(rival, problem, seconds=seconds, memory=memory)
     answer = ran.answer
     called |= {"reason": ran.reason, "computation": ran.computation}
     if ran.ending is not RivalEnding.ANSWERED or answer is None:
@@ -222,19 +246,46 @@ def run_rival(
         answer.claimed is not None
         and abs(answer.claimed - entries["seconds"]) > 1e-6 * entries["seconds"]
     ):
-        entries["faults"] = (
-            f"claims {answer.claimed:.6g} s, takes {entries['seconds']:.6g} s",
-            *entries["faults"],
-        )
+        claim = f"claims {answer.claimed:.6g} s, takes {entries['seconds']:.6g} s"
+        entries["faults"] = f"{claim}; {entries['faults']}".removesuffix("; ")
         entries["status"] = BREAKS
     return RivalRow(**called, **entries)
 
 
+def require_askable(problem: Problem, rival: Rival) -> None:
+    """Refuse a task that a program cannot be asked for.
+
+    Parameters
+    ----------
+    problem : Problem
+    rival : Rival
+
+    Raises
+    ------
+    UnsupportedProblem
+        The message says what cannot be asked for.
+    """
+    if not rival.zones:
+        problem.require_plain(rival.name)
+        return
+    if problem.n_segments > 1 and not problem.conditions.tolerance:
+        raise UnsupportedProblem(
+            f"{rival.name}: passes no inner waypoint exactly; see the task with zones"
+        )
+    plain = replace(problem, conditions=replace(problem.conditions, tolerance={}))
+    plain.require_plain(rival.name)
+
+
 def _ours(problem: Problem, seconds: float, stop: Callable[[], bool]) -> RivalRow:
-    called: dict[str, Any] = {"problem": problem.name, "rival": OURS, "version": version(OURS)}
+    called: dict[str, Any] = {
+        "problem": problem.name,
+        "rival": OURS,
+        "version": version_of(OURS),
+        "time_limit": seconds,
+    }
     begun = time.perf_counter()
     try:
-        found = plan(problem, conditions=problem.conditions, gap=1e-4, time_limit=seconds, stop=stop)
+        found = plan(problem, conditions=problem.conditions, gap=_GAP, time_limit=seconds, stop=stop)
     except NoFeasibleMotion as reason:
         return RivalRow(**called, status=NO_MOTION, reason=str(reason))
     called |= {"computation": time.perf_counter() - begun, "bound": found.bound or None}
@@ -245,7 +296,7 @@ def _ours(problem: Problem, seconds: float, stop: Callable[[], bool]) -> RivalRo
     )
 
 
-def version(package: str) -> str:
+def version_of(package: str) -> str:
     """Return the version of a package.
 
     Parameters

@@ -1,4 +1,4 @@
-"""Rows of rivals as a table in the terminal, as plain data, and as a page."""
+"""Rows of rivals as tables in the terminal and in documents, and as a page."""
 
 from __future__ import annotations
 
@@ -8,15 +8,34 @@ from typing import Any
 
 from compare.report.frame import CHARTS, environment
 from compare.rivals import RIVALS
-from compare.rivals.rows import KEEPS, OURS, RivalRow
+from compare.rivals.rows import KEEPS, OURS, RivalRow, limit_factor
 from compare.screen import table
 
 HEADER = (
-    "task", "program", "time [s]", "over bound [%]", "slowed down [s]", "path [rad]", "off waypoint [rad]",
-    "work [s]", "verdict", "why",
+    "task", "program", "verdict", "time [s]", "over fastest", "over bound", "slowed down [s]", "worst limit",
+    "work [s]", "path [rad]", "off waypoint [rad]", "what is broken, and notes",
 )  # fmt: skip
-RIGHT = (2, 3, 4, 5, 6, 7)
-_FAULTS = 2  # shown in a cell
+RIGHT = (3, 4, 5, 6, 7, 8, 9, 10)
+SUMMARY = (
+    "program", "tasks", "keeps all", "breaks", "no motion", "over fastest: median", "over fastest: largest",
+    "slowed down: mends", "slowed down: median", "slowed down: largest", "worst limit", "work: median [s]",
+)  # fmt: skip
+SUMMARY_RIGHT = tuple(range(1, 12))
+
+
+def name_of(key: str) -> str:
+    """Return the name of a program in tables.
+
+    Parameters
+    ----------
+    key : str
+        Of ``RIVALS``, or ours.
+
+    Returns
+    -------
+    str
+    """
+    return RIVALS[key].name if key in RIVALS else key
 
 
 def cells(row: RivalRow) -> list[str]:
@@ -30,81 +49,115 @@ def cells(row: RivalRow) -> list[str]:
     -------
     list of str
     """
-    why = list(row.faults[:_FAULTS])
-    if len(row.faults) > _FAULTS:
-        why.append(f"and {len(row.faults) - _FAULTS} more")
+    why = [row.faults] if row.faults else []
     if row.own_bound is not None and row.rival != OURS:
         why.append(f"own bound {row.own_bound:.6g} s")
     why += [row.reason] if row.reason else []
-    gap = None if row.gap is None else 100.0 * row.gap
     return [
         row.problem,
-        OURS if row.rival == OURS else RIVALS[row.rival].name if row.rival in RIVALS else row.rival,
+        name_of(row.rival),
+        row.status,
         _number(row.seconds, ".4f"),
-        _number(gap, "+.3f"),
+        _number(row.over_fastest, ".4f"),
+        _number(row.over_bound, ".4f"),
         _number(row.mended, ".4f"),
+        "-" if row.factor is None else limit_factor(row.factor),
+        _number(row.computation, ".2f"),
         _number(row.length, ".3f"),
         _number(row.deviation, ".1e"),
-        _number(row.computation, ".2f"),
-        row.status,
         "; ".join(why),
     ]
 
 
-def as_text(rows: Sequence[RivalRow]) -> str:
-    """Set the rows as a table.
+def summary_cells(entry: dict[str, Any]) -> list[str]:
+    """Return the cells of a program's summary.
+
+    Parameters
+    ----------
+    entry : dict
+        A ``RivalSummary`` as plain data.
+
+    Returns
+    -------
+    list of str
+    """
+    over, mended = entry["over"] or (None, None), entry["mended"] or (None, None)
+    return [
+        name_of(entry["rival"]),
+        *(str(entry[key]) for key in ("tasks", "kept", "broken", "none")),
+        *(_number(value, ".4f") for value in over),
+        str(entry["mendable"]),
+        *(_number(value, ".4f") for value in mended),
+        "-" if entry["factor"] is None else limit_factor(entry["factor"]),
+        _number(entry["work"], ".2f"),
+    ]
+
+
+def as_text(rows: Sequence[RivalRow], summary: Sequence[dict[str, Any]]) -> str:
+    """Set a table of rows per task, and then a line per program.
 
     Parameters
     ----------
     rows : sequence of RivalRow
+    summary : sequence of dict
+        A ``RivalSummary`` each, as plain data.
 
     Returns
     -------
     str
     """
-    return table(HEADER, [cells(row) for row in rows], right=RIGHT)
+    right = [index - 1 for index in RIGHT]
+    parts = []
+    for name, mine in by_task(rows).items():
+        shown = table(HEADER[1:], [cells(row)[1:] for row in mine], right=right)
+        parts.append(f"{name}\n{shown}")
+    programs = table(SUMMARY, [summary_cells(entry) for entry in summary], right=SUMMARY_RIGHT)
+    return "\n\n".join([*parts, f"all tasks\n{programs}"])
 
 
-def as_json(rows: Sequence[RivalRow], seconds: float) -> dict[str, Any]:
-    """Return the rows as plain data.
+def by_task(rows: Sequence[RivalRow]) -> dict[str, list[RivalRow]]:
+    """Collect the rows of each task.
 
     Parameters
     ----------
     rows : sequence of RivalRow
-    seconds : float
-        Time limit of each run [s].
 
     Returns
     -------
-    dict
+    dict of str to list of RivalRow
+        By name of the task, in the order of first use.
     """
-    return {"time_limit": seconds, "rows": [row.to_json() for row in rows]}
+    found: dict[str, list[RivalRow]] = {}
+    for row in rows:
+        found.setdefault(row.problem, []).append(row)
+    return found
 
 
-def as_page(rows: Sequence[RivalRow], seconds: float) -> str:
+def as_page(rows: Sequence[RivalRow], summary: Sequence[dict[str, Any]]) -> str:
     """Return the page as HTML that needs nothing else: a chart and a table per task.
 
     Parameters
     ----------
     rows : sequence of RivalRow
-    seconds : float
-        Time limit of each run [s].
+    summary : sequence of dict
+        A ``RivalSummary`` each, as plain data.
 
     Returns
     -------
     str
     """
-    tasks = list(dict.fromkeys(row.problem for row in rows))
-    by_task = [[row for row in rows if row.problem == name] for name in tasks]
+    tasks = by_task(rows)
     context = {
         "scripts": CHARTS,
-        "charts": {f"task{k}": {"ladder": chart(mine)} for k, mine in enumerate(by_task)},
+        "charts": {f"task{k}": {"ladder": chart(mine)} for k, mine in enumerate(tasks.values())},
         "tasks": [(f"task{k}", name, [cells(row)[1:] for row in mine])
-                  for k, (name, mine) in enumerate(zip(tasks, by_task, strict=True))],
+                  for k, (name, mine) in enumerate(tasks.items())],
         "header": HEADER[1:],
-        "right": [index - 1 for index in RIGHT],
+        "left": [index - 1 for index in range(1, len(HEADER)) if index not in RIGHT],
+        "summary_header": SUMMARY,
+        "summary": [summary_cells(entry) for entry in summary],
         "rivals": list(RIVALS.values()),
-        "seconds": seconds,
+        "seconds": sorted({row.time_limit for row in rows}),
         "versions": {row.rival: row.version for row in rows if row.version},
     }  # fmt: skip
     return environment(Path()).get_template("rivals.html.j2").render(context)
@@ -125,7 +178,7 @@ def chart(rows: Sequence[RivalRow]) -> dict[str, Any]:
     """
     lines = [
         {
-            "name": cells(row)[1] + ("" if row.status == KEEPS else ": breaks what is asked for"),
+            "name": name_of(row.rival) + ("" if row.status == KEEPS else ": breaks what is asked for"),
             "seconds": row.seconds,
             "kind": "faulty" if row.status != KEEPS else "upper" if row.rival == OURS else "given",
             "first": True,

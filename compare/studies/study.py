@@ -98,6 +98,8 @@ class Study(Generic[R]):
         Rows and summary -> what is printed.
     figure : Callable, optional
         Rows and summary -> the picture.
+    complete : Callable, optional
+        All rows -> all rows, with what only all of them together tell.
     """
 
     name: str
@@ -106,6 +108,7 @@ class Study(Generic[R]):
     summarise: Callable[[list[R]], Any]
     text: Callable[[list[R], Any], str]
     figure: Callable[[list[R], Any], Figure] | None = None
+    complete: Callable[[list[R]], list[R]] | None = None
 
 
 @dataclass(frozen=True)
@@ -157,7 +160,7 @@ def run(
         Rows and summary.
     """
     keys = [_key(study, call) for call in calls]
-    kept = folder / "studies" / f"{study.name}.jsonl" if folder is not None else None
+    kept = _kept(study, folder) if folder is not None else None
     found = _finished(study, kept, set(keys)) if kept is not None and resume else {}
     if kept is not None:
         kept.parent.mkdir(parents=True, exist_ok=True)
@@ -168,11 +171,43 @@ def run(
         if kept is not None:
             with kept.open("a", encoding="utf-8") as lines:
                 lines.write(_line(keys[index], rows))
-    rows = [row for key in keys for row in found[key]]  # in the order of the calls
-    summary = study.summarise(rows)
+    findings = _findings(study, keys, found)
     if folder is not None:
-        _write(study, rows, summary, folder)
-    return Findings(study, rows, summary)
+        _write(study, findings.rows, findings.summary, folder)
+    return findings
+
+
+def finished(study: Study[R], calls: Sequence[Call], folder: Path) -> Findings[R]:
+    """Read what interrupted runs of a study have finished.
+
+    Parameters
+    ----------
+    study : Study
+        What is computed and told.
+    calls : sequence of tuples
+        The arguments of each call of ``study.compute``.
+    folder : Path
+        Where its files are.
+
+    Returns
+    -------
+    Findings
+        Of the calls that are finished, with the same arguments, versions and code.
+    """
+    keys = [_key(study, call) for call in calls]
+    return _findings(study, keys, _finished(study, _kept(study, folder), set(keys)))
+
+
+def _findings(study: Study[R], keys: Sequence[str], found: dict[str, list[R]]) -> Findings[R]:
+    """All rows in the order of the calls, with their summary."""
+    rows = [row for key in keys if key in found for row in found[key]]
+    if study.complete is not None:
+        rows = study.complete(rows)
+    return Findings(study, rows, study.summarise(rows))
+
+
+def _kept(study: Study[Any], folder: Path) -> Path:
+    return folder / "studies" / f"{study.name}.jsonl"
 
 
 def optima_of(problems: dict[str, Problem]) -> dict[str, float]:

@@ -1,4 +1,4 @@
-"""The chapters of papers, ``view``, ``grade`` and the suite in a browser: the same demands as on the report."""
+"""The chapters of papers, ``view``, ``grade``, ``rivals`` and the suite in a browser, as the report."""
 
 from __future__ import annotations
 
@@ -15,6 +15,20 @@ from compare.files import write_json
 from compare.papers import ITEMS, page
 from compare.papers.shelf import OK
 
+ASKED = """\
+unit = "deg"
+arm = "ur5"
+waypoints = [[0, -60, 60, 0, 30, 0], [35, -40, 35, 10, 5, 25], [65, -70, 75, -15, 10, 5]]
+
+[limits]
+velocity = 180
+acceleration = 600
+jerk = 6000
+
+[[conditions.segment]]
+from = 1
+limits = {velocity = 60}
+"""
 SMALL = ["--seeds", "4", "--budget", "60", "--jobs", "1"]
 
 
@@ -57,8 +71,42 @@ def suite(folder: Path) -> Path:
     return folder / "index.html"
 
 
+def demanding(folder: Path) -> Path:
+    """A problem with zones, a window, a wait, a slow segment and a slow tool."""
+    asked = [
+        "--zone",
+        "5",
+        "--zone",
+        "1=10",
+        "--window",
+        "1=1:1.5",
+        "--wait",
+        "1=0.3",
+        "--tool-speed",
+        "0.5",
+    ]
+    (folder / "asked.toml").write_text(ASKED, "utf-8")
+    given = ["view", str(folder / "asked.toml"), *asked, "--rungs", "displacement", "--no-open"]
+    assert main([*given, "--time-limit", "20", "--out", str(folder / "view.html")]) == 0
+    return folder / "view.html"
+
+
+def rivals(folder: Path) -> Path:
+    """The fastest motion beside a program that is there, one that may not run, and toppra."""
+    page = str(folder / "rivals.html")
+    assert (
+        main(
+            ["rivals", "sr4c", "--rivals", "ruckig,jacobi,toppra", "--page", page, "--out", str(folder)]
+        )
+        == 0
+    )
+    return folder / "rivals.html"
+
+
 @pytest.mark.long
-@pytest.mark.parametrize("make", [chapter, viewed, graded, suite], ids=lambda make: make.__name__)
+@pytest.mark.parametrize(
+    "make", [chapter, viewed, demanding, graded, suite, rivals], ids=lambda make: make.__name__
+)
 def test_the_page_reads_well_in_both_themes_and_widths(
     make: Callable[[Path], Path], open_page: Open, tmp_path: Path
 ) -> None:

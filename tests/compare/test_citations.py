@@ -10,6 +10,7 @@ import pytest
 from conftest import climbed
 from graded_runs import graded
 
+from compare import statistics
 from compare.__main__ import main
 from compare.benchmark.records.settings import Settings
 from compare.benchmark.records.store import Store
@@ -28,6 +29,11 @@ NAMES = {
     CitedKind.algorithm: set(ALGORITHMS),
     CitedKind.library: {library.distribution for library in LIBRARIES.values()}
     | {name for entry in ALGORITHMS.values() for name in entry.libraries},
+    CitedKind.statistic: {
+        path.stem
+        for path in Path(statistics.__path__[0]).glob("[a-z]*.py")
+        if "\nReferences\n" in path.read_text("utf-8")
+    },
 }
 REQUIRED = {
     "article": {"author", "title", "journal", "year"},
@@ -51,7 +57,7 @@ def fields(entry: str) -> dict[str, str]:
 
 def plain(text: str) -> str:
     """An author's name without TeX, as the code writes it."""
-    return re.sub(r"\{\\.(\w)\}|[{}]", r"\1", text)
+    return re.sub(r"\{\\.\{?(\w)\}?\}|[{}]", r"\1", text)
 
 
 @pytest.mark.parametrize("kind", CitedKind)
@@ -109,6 +115,28 @@ def test_a_family_cites_a_paper_that_its_source_names(name: str) -> None:
     first = CITED[CitedKind.family][name][0]
     author, year = re.fullmatch(r"([a-z]+)(\d+)", first).groups()  # type: ignore[union-attr]
     assert re.search(rf"{author}.* {year}", FAMILIES[name].source, re.IGNORECASE)
+
+
+@pytest.mark.parametrize("name", CITED[CitedKind.statistic])
+def test_statistics_cite_every_paper_that_their_module_names(name: str) -> None:
+    text = Path(statistics.__path__[0], f"{name}.py").read_text("utf-8")
+    named = re.findall(r"^(\w+) [A-Z]\. .*?\((\d{4})\)", text, re.MULTILINE)
+    assert named
+    assert {f"{author.lower()}{year}" for author, year in named} <= set(
+        CITED[CitedKind.statistic][name]
+    )
+
+
+@pytest.mark.parametrize("page", ["grade.html", "versus.html"])
+def test_a_grading_cites_its_statistics(page: str, tmp_path: Path) -> None:
+    store = Store(tmp_path)
+    store.clear()
+    store.add(graded(load("sr4c"), 4.7, "shared", "random", 0, 30))
+    store.close()
+    (tmp_path / page).write_text("", "utf-8")
+    found = set(reasons(used_by(str(tmp_path))))
+    assert {*OWN, "wang2025", "holm1979", "vargha2000", "hansen2021"} <= found
+    assert "david2003" not in found  # medians are the chapters'
 
 
 @pytest.mark.slow

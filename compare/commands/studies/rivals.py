@@ -8,14 +8,14 @@ from typing import Annotated
 from cyclopts import Parameter
 
 from compare.commands import DONE, INTERRUPTED
-from compare.commands.options import Json, listed, positive, writable
-from compare.files import write_text
-from compare.interrupts import ctrl_c_stops
+from compare.commands.options import Json, Resume, listed, positive, writable
+from compare.files import output_folder, write_text
 from compare.rivals import RIVALS
-from compare.rivals import rows as running
-from compare.rivals.shown import as_json, as_page, as_text
-from compare.screen import show, stages
+from compare.rivals import run_study as study
+from compare.rivals.shown import as_page
+from compare.screen import show
 from compare.studies.free_form_study import random_problems
+from compare.studies.study import finished, run
 from formulations import CASES, Problem, load
 
 _GIGA = 1_000_000_000
@@ -30,45 +30,54 @@ def rivals(
         listed(lambda: RIVALS, "The programs to run; all if left out.", "--rivals"),
     ] = None,
     random: Annotated[int | None, Parameter(metavar="COUNT", validator=positive)] = None,
+    tolerance: Annotated[float, Parameter(metavar="RAD", validator=positive)] = 0.1,
     time_limit: Annotated[float, Parameter(metavar="SECONDS", validator=positive)] = 20.0,
     memory: Annotated[float, Parameter(metavar="GB", validator=positive)] = 4.0,
     page: Annotated[str | None, Parameter(metavar="FILE", validator=writable)] = None,
+    out: Annotated[str, Parameter(metavar="DIR")] = "report",
+    resume: Resume = False,
     json: Json = None,
 ) -> int:
     """Run other programs on the same tasks, and judge every motion by the same check.
 
     Each runs in a process of its own; one that is missing, crashes or hangs has a row that says so. Ctrl-C
-    ends the run and keeps the rows that are finished.
+    ends the run and shows the rows that are finished; --resume goes on from there.
 
     Parameters
     ----------
     random
-        So many random problems of two real arms too.
+        So many random problems of two real arms too; without FILE, these alone.
+    tolerance
+        Programs that blend corners, and we, get each task once more, with zones of this size at its
+        inner waypoints.
     time_limit
         Seconds of each program on each task.
     memory
         GB that each program may hold (on Linux).
     page
         Write a page with charts to this file.
+    out
+        Folder for the rows.
     """
     tasks: list[Problem] = [load(file) for file in files]
     if not files and random is None:
         tasks = [load(name) for name in CASES]
     tasks += random_problems(random or 0, 0)
-    found: list[running.RivalRow] = []
-    with ctrl_c_stops() as stop, stages("rivals") as stage:
-        for row in running.rows(
-            tasks,
-            [RIVALS[key] for key in rivals or RIVALS],
-            seconds=time_limit,
-            memory=int(memory * _GIGA),
-            stop=stop,
-            stage=stage,
-        ):
-            found.append(row)
-            print(f"{row.problem}: {row.rival}: {row.status}", file=sys.stderr, flush=True)
-        interrupted = stop()
-    show(as_text(found), as_json(found, time_limit), json)
+    listed_calls = study.calls(
+        tasks,
+        list(rivals or RIVALS),
+        zone=tolerance,
+        seconds=time_limit,
+        memory=int(memory * _GIGA),
+    )
+    folder, code = output_folder(out), DONE
+    try:
+        found = run(study.STUDY, listed_calls, folder=folder, resume=resume)
+    except KeyboardInterrupt:
+        found, code = finished(study.STUDY, listed_calls, folder), INTERRUPTED
+        left = len(listed_calls) - len(found.rows)
+        print(f"interrupted: {left} of {len(listed_calls)} rows are left for --resume", file=sys.stderr)
+    show(found.as_text(), found.to_json(), json)
     if page is not None:
-        write_text(page, as_page(found, time_limit))
-    return INTERRUPTED if interrupted else DONE
+        write_text(page, as_page(found.rows, found.summary))
+    return code

@@ -52,7 +52,7 @@ def charts_of_case(
         charts["motion"] = motions_chart(problem, motions)
         arm = arm_of(problem.name)
         if arm is not None:
-            charts["arm"] = arm_chart(arm, motions)
+            charts["arm"] = arm_chart(arm, motions, problem)
     split = split_chart(problem, ladder, rows)
     if split["bars"]:
         charts["split"] = split

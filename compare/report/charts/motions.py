@@ -8,8 +8,9 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
+from compare.report.charts.demanded import demanded
 from compare.report.motion_picture import skeleton
-from formulations import Problem, Trajectory
+from formulations import Conditions, Problem, Trajectory
 from formulations.motion.verdict import QUANTITIES
 from formulations.problem.arrays import Array
 from formulations.problem.joint_words import factors, shown_unit
@@ -47,7 +48,9 @@ class ShownMotion:
     slack: float = SLACK
 
 
-def motions_chart(problem: Problem, motions: Sequence[ShownMotion]) -> dict[str, Any]:
+def motions_chart(
+    problem: Problem, motions: Sequence[ShownMotion], asked: Conditions | None = None
+) -> dict[str, Any]:
     """Return the pieces of each motion in the problem's own units, and the limits.
 
     Parameters
@@ -55,6 +58,8 @@ def motions_chart(problem: Problem, motions: Sequence[ShownMotion]) -> dict[str,
     problem : Problem
     motions : sequence of ShownMotion
         Of all its joints.
+    asked : Conditions, optional
+        What is in force beyond waypoints and limits.
 
     Returns
     -------
@@ -62,7 +67,8 @@ def motions_chart(problem: Problem, motions: Sequence[ShownMotion]) -> dict[str,
         ``joints``: name, ``units`` and ``limits`` of position to jerk (None where there is none), and
         waypoints; ``motions``: title, kind, passage times and, by piece, durations [s] and ascending
         coefficients by joint. A motion of very many pieces has ``curves`` in their place: by joint and
-        quantity, times [s] and values, the exact extremes of each of 400 short intervals.
+        quantity, times [s] and values, the exact extremes of each of 400 short intervals. With conditions,
+        what ``demanded`` returns too.
     """
     scales = 1.0 / factors(problem.units, problem.display_unit)
     joints = []
@@ -77,7 +83,11 @@ def motions_chart(problem: Problem, motions: Sequence[ShownMotion]) -> dict[str,
                 "waypoints": [_short(x * scales[j]) for x in problem.waypoints[:, j]],
             }
         )
-    return {
+    more: dict[str, Any] = {}
+    if asked is not None and not asked.none:
+        more = demanded(problem, asked, [motion.trajectory for motion in motions])
+        joints = [one | two for one, two in zip(joints, more.pop("joints"), strict=True)]
+    return more | {
         "quantities": list(QUANTITIES),
         "joints": joints,
         "motions": [
@@ -138,19 +148,27 @@ def _curves(trajectory: Trajectory, order: int) -> tuple[Array, Array]:
     return drawn[0], drawn[1]
 
 
-def arm_chart(arm: Arm | Robot, motions: Sequence[ShownMotion]) -> dict[str, Any]:
+def arm_chart(
+    arm: Arm | Robot,
+    motions: Sequence[ShownMotion],
+    problem: Problem,
+    asked: Conditions | None = None,
+) -> dict[str, Any]:
     """Return the arm as a chain of points along each motion.
 
     Parameters
     ----------
     arm : Arm or Robot
     motions : sequence of ShownMotion
+    problem : Problem
+    asked : Conditions, optional
+        What is in force beyond waypoints and limits.
 
     Returns
     -------
     dict
         ``motions``: title, kind, seconds, ``times`` [s], ``frames`` (frame, point, xyz) [m]; ``stops``: the
-        tool at each waypoint [m].
+        tool at each waypoint [m]; ``balls``: waypoint, from 0, and radius [m] of each zone of the tool.
     """
     shown = []
     for motion in motions:
@@ -166,12 +184,13 @@ def arm_chart(arm: Arm | Robot, motions: Sequence[ShownMotion]) -> dict[str, Any
                 "frames": np.round(points[:, keep], 3).tolist(),
             }
         )
-    best = motions[-1].trajectory  # the first one may miss waypoints
-    tool = skeleton(arm, best.at(best.passage_times))[:, -1]
+    tool = skeleton(arm, problem.waypoints)[:, -1]
+    balls = {} if asked is None else asked.tool_zones
     title = getattr(arm, "title", arm.name)
     return {
         "motions": shown,
         "stops": np.round(tool, 3).tolist(),
+        "balls": [[k, float(radius)] for k, radius in sorted(balls.items())],
         "alt": f"{title} as a stick figure that can be turned and played: "
         + "; ".join(motion.title for motion in motions)
         + ".",

@@ -22,6 +22,7 @@ charts.arm = (figure, found) => {
   traces.push({type: "scatter3d", mode: many ? "markers" : "markers+text", ...columns(found.stops), name: "waypoints",
                text: found.stops.map((_, k) => String(k + 1)), textfont: {color: ink},
                hovertemplate: "waypoint %{text}<extra></extra>", marker: {color: ink, size: many ? 2 : 4, symbol: "diamond"}});
+  for (const [k, radius] of found.balls ?? []) traces.push(ball(found.stops[k], radius, `within ${1000 * radius} mm of waypoint ${k + 1}`));
   const axis = {color: colour("soft"), gridcolor: colour("grid"), zerolinecolor: colour("grid"), showspikes: false};
   const canvas = figure.querySelector(".canvas");
   const camera = canvas.layout?.scene?.camera ?? {eye: {x: 1.65, y: -1.9, z: 0.9}};
@@ -34,6 +35,21 @@ charts.arm = (figure, found) => {
 
   controls(figure, () => playing(canvas, found, player, longest));
 };
+
+// a zone of the tool, as three great circles
+function ball(centre, radius, words) {
+  const turn = Array.from({length: 49}, (_, i) => 2 * Math.PI * i / 48), points = [];
+  for (const [a, b] of [[0, 1], [1, 2], [2, 0]]) {
+    for (const angle of turn) {
+      const point = [...centre];
+      point[a] += radius * Math.cos(angle);
+      point[b] += radius * Math.sin(angle);
+      points.push(point);
+    }
+    points.push([null, null, null]);
+  }
+  return {type: "scatter3d", mode: "lines", ...columns(points), name: words, hoverinfo: "name", line: {color: colour("purple"), width: 3}};
+}
 
 // a button, a slider and a clock
 function playing(canvas, found, player, longest) {

@@ -100,7 +100,7 @@ def test_the_page_says_all_that_is_asked_for(folder: Path) -> None:
     assert main(["view", "cell.toml", "--out", "page.html", "--no-open", "--rungs", "free_form"]) == 0
     page = Path("page.html").read_text("utf-8")
     for said in (
-        "It passes waypoint 2 within 3 deg, 3 deg of its joints.",
+        "It passes waypoint 2 within 3 deg in each joint.",
         "It stands still at waypoint 3 for 0.25 s.",
         "It passes waypoint 3 between 1.2 and 2 s.",
         "Its velocity at the end is free.",

@@ -60,7 +60,7 @@ def test_the_pieces_are_the_motion_in_the_problems_units(climbed) -> None:
 def test_frames_of_the_arm_end_at_the_tool_and_start_together(climbed) -> None:
     problem, arm = load("sr4c"), load_arm("sr4c")
     shown = motions_of_case(problem, climbed)
-    chart = arm_chart(arm, shown)
+    chart = arm_chart(arm, shown, problem)
     for motion, data in zip(shown, chart["motions"], strict=True):
         frames = np.array(data["frames"])
         times = np.linspace(0.0, motion.trajectory.seconds, len(frames))

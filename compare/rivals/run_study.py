@@ -1,0 +1,187 @@
+"""All rivals on all tasks as a study: its calls, what its rows say together, and a summary per program."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import asdict, dataclass, replace
+from typing import Any
+
+import numpy as np
+
+from compare.rivals import RIVALS
+from compare.rivals.isolated import RivalEnding
+from compare.rivals.rows import BREAKS, KEEPS, OURS, UNSUPPORTED, RivalRow, answered, version_of
+from compare.rivals.shown import as_text
+from compare.studies.study import Call, Study
+from formulations import Problem
+
+NOT_GIVEN = (UNSUPPORTED, RivalEnding.NOT_RUN.value)
+"""Status of a task that a program was not given."""
+
+
+def with_zones(problem: Problem, zone: float) -> Problem:
+    """Let a motion pass the inner waypoints within zones.
+
+    Parameters
+    ----------
+    problem : Problem
+    zone : float
+        How far from an inner waypoint each joint may pass it [rad].
+
+    Returns
+    -------
+    Problem
+        With a name that says so.
+    """
+    boxes = {k: np.full(problem.dof, zone) for k in range(1, problem.n_segments)}
+    asked = replace(problem.conditions, tolerance=boxes)
+    return replace(problem, name=f"{problem.name}, zones of {zone:g} rad", conditions=asked)
+
+
+def calls(
+    problems: Sequence[Problem],
+    rivals: Sequence[str],
+    *,
+    zone: float,
+    seconds: float,
+    memory: int,
+) -> list[Call]:
+    """List the calls of the study: each task with each program, ours first.
+
+    A program that cannot pass a waypoint exactly gets each task without conditions once more, with zones, and
+    so do we: a motion that may cut corners is set beside ours that may cut them as far.
+
+    Parameters
+    ----------
+    problems : sequence of Problem
+    rivals : sequence of str
+        Keys of ``RIVALS``.
+    zone : float
+        Of these tasks, at each inner waypoint [rad].
+    seconds : float
+        Time limit of each program on each task [s].
+    memory : int
+        Bytes that each may hold.
+
+    Returns
+    -------
+    list of tuples
+        Arguments of ``answered``.
+    """
+    cutting = [key for key in rivals if RIVALS[key].zones]
+    found: list[tuple[Problem, str]] = []
+    for problem in problems:
+        found += [(problem, key) for key in (OURS, *rivals)]
+        if cutting and problem.conditions.none and problem.n_segments > 1:
+            zoned = with_zones(problem, zone)
+            found += [(zoned, key) for key in (OURS, *cutting)]
+    version = {key: version_of(rival.package) for key, rival in RIVALS.items()} | {
+        OURS: version_of(OURS)
+    }
+    return [(problem, key, version[key], seconds, memory) for problem, key in found]
+
+
+def beside(rows: list[RivalRow]) -> list[RivalRow]:
+    """Set each motion beside the fastest one of its task that keeps all, and beside our bound.
+
+    Parameters
+    ----------
+    rows : list of RivalRow
+        Of all tasks.
+
+    Returns
+    -------
+    list of RivalRow
+    """
+    found = []
+    for row in rows:
+        mine = [other for other in rows if other.problem == row.problem]
+        bound = next((other.bound for other in mine if other.rival == OURS), None)
+        kept = [o.seconds for o in mine if o.status == KEEPS and o.seconds is not None]
+        fastest = min(kept, default=None)
+        found.append(
+            replace(
+                row,
+                bound=bound,
+                fastest=fastest,
+                over_bound=_over(row.seconds, bound),
+                over_fastest=_over(row.seconds, fastest),
+            )
+        )
+    return found
+
+
+def _over(seconds: float | None, least: float | None) -> float | None:
+    return seconds / least if seconds is not None and least else None
+
+
+@dataclass(frozen=True)
+class RivalSummary:
+    """What matters of one program.
+
+    tasks: those that it was given. kept, broken, none: motions that keep all, that break something, and tasks
+    without a motion; tasks that it cannot be asked for are none of these. over: median and largest time over
+    the fastest motion, of motions that keep all; mended: the same of those that break something, once they are
+    slowed down; mendable: how many of them that mends. factor: largest value over a limit. work: median [s].
+    """
+
+    rival: str
+    tasks: int
+    kept: int
+    broken: int
+    none: int
+    over: tuple[float, float] | None
+    mendable: int
+    mended: tuple[float, float] | None
+    factor: float | None
+    work: float | None
+
+
+def summarise(rows: list[RivalRow]) -> list[dict[str, Any]]:
+    """Sum the rows of each program up.
+
+    Parameters
+    ----------
+    rows : list of RivalRow
+        As ``beside`` returns them.
+
+    Returns
+    -------
+    list of dict
+        A ``RivalSummary`` each.
+    """
+    found = []
+    for key in dict.fromkeys(row.rival for row in rows):
+        mine = [row for row in rows if row.rival == key and row.status not in NOT_GIVEN]
+        kept = [r for r in mine if r.status == KEEPS]
+        broken = [r for r in mine if r.status == BREAKS]
+        mended = [r.mended / r.fastest for r in broken if r.mended is not None and r.fastest]
+        work = [r.computation for r in mine if r.computation is not None]
+        summary = RivalSummary(
+            key,
+            len(mine),
+            len(kept),
+            len(broken),
+            len(mine) - len(kept) - len(broken),
+            _median_and_largest([r.over_fastest for r in kept if r.over_fastest is not None]),
+            len(mended),
+            _median_and_largest(mended),
+            max((r.factor for r in mine if r.factor is not None), default=None),
+            float(np.median(work)) if work else None,
+        )
+        found.append(asdict(summary))
+    return found
+
+
+def _median_and_largest(values: list[float]) -> tuple[float, float] | None:
+    return (float(np.median(values)), max(values)) if values else None
+
+
+STUDY = Study(
+    name="rivals",
+    row=RivalRow,
+    compute=answered,
+    complete=beside,
+    summarise=summarise,
+    text=as_text,
+)
