@@ -97,7 +97,7 @@ def found_in_linear_time(
         None where the check refuses the motion: it may leave the position limits between waypoints.
     """
     clock = time.perf_counter()
-    descent = ChainDescent(problem)
+    descent = ChainDescent(problem, deadline)
     stages = [Stage("stop and go", descent.seconds, "", time.perf_counter() - clock)]
     clock = time.perf_counter()
 
