@@ -13,7 +13,7 @@ from compare.studies import scale, study
 
 ROW = scale.ScaleAnswer(
     joints=2, waypoints=100, step=2.5, seed=0, seconds=3.0, feasible=True, bound=2.0, status="proved",
-    motion=1.5, proof=4.0, memory=2e8,
+    motion=1.5, proof=4.0, elapsed=6.0, memory=2e8,
 )  # fmt: skip
 
 
@@ -32,7 +32,7 @@ def test_gap_whole_time_and_table_of_a_planted_row() -> None:
     (plain,) = scale.summarise([replace(ROW, memory=float("nan"))])
     assert (plain["gap"], plain["whole"], plain["memory"]) == (pytest.approx(0.5), 5.5, None)
     assert scale.as_text([ROW], []).splitlines()[-1].split() == [
-        "100", "2", "3", "5.0e-01", "1.50", "4.00", "5.50", "200", "proved",
+        "100", "2", "3", "5.0e-01", "1.50", "4.00", "5.50", "6.00", "200", "proved",
     ]  # fmt: skip
 
 
@@ -57,7 +57,9 @@ def test_files_of_tiny_counts_memory_apart_and_resuming(tmp_path: Path) -> None:
         assert row.bound <= row.seconds * (1.0 + 1e-9)
         assert row.gap < 1e-2
         assert 2e7 < row.memory < 8.0 * hoard.size
-    assert [entry["waypoints"] for entry in json.loads((tmp_path / "scale.json").read_text())["summary"]] == [3, 5]
+    assert [
+        entry["waypoints"] for entry in json.loads((tmp_path / "scale.json").read_text())["summary"]
+    ] == [3, 5]
     assert (tmp_path / "figures" / "scale.svg").stat().st_size > 1000
     again = study.run(scale.STUDY, calls, folder=tmp_path, resume=True)
     assert again.rows == found.rows  # times and all: nothing was measured again

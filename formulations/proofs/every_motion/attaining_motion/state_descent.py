@@ -20,7 +20,7 @@ from collections.abc import Callable
 from dataclasses import replace
 
 import numpy as np
-from scipy.sparse import coo_array, csr_array
+from scipy.sparse import coo_array, csr_array, diags_array
 
 from formulations.deadlines import NEVER, Deadline
 from formulations.problem.arrays import Array
@@ -39,6 +39,7 @@ _STEPS = 60
 _PRICE, _DEAREST = 8.0, 1e3  # of missing one unit of a segment's rows, in mean durations
 _ROUGH = 3  # steps without curvature, solved loosely
 _FAR = 1.0  # rows with more slack cannot be met within a step that is worth it
+_FAR_BACK = 0.5  # rows of the steps before, in their units
 _NEAR_END = 1e-5  # of the time: steps that change it by less keep the rows of the steps before
 _GENERATIONS = 2  # of rows that are kept then
 _CALM, _CALMER = 1e-3, 1e-2  # weight of the squared change of states, before and in the end
@@ -48,6 +49,13 @@ _DENSE = 0.1  # of top speed: what full acceleration gains in one segment of a d
 _MOST_MISSED = 2.0  # units that a step may miss there
 _ALLOWED, _STRICTER = 1.0, 0.8  # of that what no radius shrinks for, and how it falls from step to step
 _SHARES = (1.0, 0.5, 0.25, 0.1, 0.03)  # of a step that are tried there
+_LONGER = (3e-2, 1e-2, 3e-3, 1e-3)  # of durations that are held, tried in turn until one fails
+_CUTS, _NARROW = (
+    6,
+    0.3,
+)  # rounds of rows there, and the share of that by which a point may be slowed down
+_NEARLY = 0.03  # units that most rows miss less than, where it is worth it
+_OFTEN = 4  # steps from one time to the next
 _FAILURES = 8  # steps in a row whose programs rounding leaves unsolved, after which there is no use
 
 
@@ -160,9 +168,11 @@ class ChainDescent:
                 continue
             if step >= _ROUGH:
                 self._keep_feasible()
+            change = abs(float(self.point.T.sum() / before.T.sum()) - 1.0)
+            if self.dense and self._restorable(step):
+                self._restore(deadline)
             if progress is not None and self.seconds < last:
                 progress(self.seconds)
-            change = abs(float(self.point.T.sum() / before.T.sum()) - 1.0)
             self._ending |= change < _NEAR_END
             ahead = self.seconds / float(self.point.T.sum()) - 1.0
             if change < 0.1 * tolerance and 0.0 <= ahead < tolerance:
@@ -188,18 +198,74 @@ class ChainDescent:
 
     def _next(self, coefficients: Array, step: int, deadline: Deadline) -> ChainPoint:
         """The next point: linear rows, curvature and trust region; the quadratic program is solved."""
-        point, columns, relaxed = self.point, self.columns, self.relaxed
+        generations = [coefficients]
         if self._ending:
-            generations = [coefficients, *self._old]
+            generations += self._old
             self._old = generations[:_GENERATIONS]
-        else:
-            generations = [coefficients]
+        quadratic = None if step < _ROUGH else self._quadratic(self.rows.states(self.point))
+        tolerance = 1e-5 if step < _ROUGH else 1e-6 if self.dense else 1e-9
+        box = self._region.box(self.columns, self.point)
+        found = self._solved(generations, box, quadratic, tolerance, deadline)
+        self._failures = 0 if found[1] else self._failures + self.dense
+        if self._ending or (self.dense and step >= _ROUGH):
+            cheap = self._foreseen > (1e-6 if self._ending else 1e-3)
+            self._price[cheap] = np.minimum(4.0 * self._price[cheap], _DEAREST)
+        return found[0]
+
+    def _restorable(self, step: int) -> bool:
+        """Whether it is time to look for states with which all rows hold."""
+        gain = self.seconds / float(self.point.T.sum()) - 1.0
+        if step % _OFTEN != _OFTEN - 1 or gain < 2.0 * _LONGER[-1]:
+            return False
+        return float(np.percentile(self._missing, 99.0)) < _NEARLY
+
+    def _restore(self, deadline: Deadline) -> None:
+        """Look for states with which all rows hold while the durations, a little longer, are held.
+
+        That is a convex problem: with durations held a row is linear in the states for fixed switches, and
+        holds for every motion.
+        """
+        point = self.point
+        kept = self._missing, self._foreseen, self._weights, self._peak_weights
+        calm = np.zeros(self.columns.size)
+        calm[self.columns.v], calm[self.columns.a] = _CALMER, _CALMER
+        total = float(point.T.sum())
+        for share in (x for x in _LONGER if total * (1.0 + x) < self.seconds):
+            self.point, best = point.slower(1.0 + share), self.best
+            cuts: list[Array] = []
+            for _ in range(_CUTS):
+                cuts.insert(0, self.rows.coefficients(self.rows.states(self.point)))
+                box = TrustRegion(self.relaxed).box(self.columns, self.point)
+                box[self.columns.T] = (-1e-9, 1e-9)
+                self.point, _ = self._solved(cuts, box, csr_array(diags_array(calm)), 1e-8, deadline)
+                self._keep_feasible(_NARROW * share)
+                if deadline.over or self.best is not best:
+                    break
+            if deadline.over or self.best is best:
+                break
+        self.point = point
+        self._missing, self._foreseen, self._weights, self._peak_weights = kept
+
+    def _solved(
+        self,
+        generations: list[Array],
+        box: Array,
+        quadratic: csr_array | None,
+        tolerance: float,
+        deadline: Deadline,
+    ) -> tuple[ChainPoint, bool]:
+        """The point that a quadratic program leads to, and whether the program was solved."""
+        point, columns, relaxed = self.point, self.columns, self.relaxed
         states = self.rows.states(point)
         slopes, slacks = zip(*(self.rows.linearised(c, states) for c in generations), strict=True)
         slack = np.concatenate(slacks)
-        near = np.flatnonzero(slack < _FAR)
-        row = near % len(self.rows.segment)
-        unit = self.rows.units(states)[row]
+        m, each = len(self.rows.segment), self.rows.units(states)
+        wanted = np.concatenate(
+            [slack[:m] < _FAR, slack[m:] < _FAR_BACK * np.tile(each, len(slacks) - 1)]
+        )
+        near = np.flatnonzero(wanted)
+        row = near % m
+        unit = each[row]
         places = columns.of_rows(self.rows)[row]
         kept = np.concatenate(slopes)[near] / unit[:, None]
         values = np.column_stack([kept, -np.ones(len(near))])
@@ -214,8 +280,6 @@ class ChainDescent:
         cost = np.zeros(columns.size)
         mean = float(point.T.mean())
         cost[columns.T], cost[columns.missed] = point.T / mean, self._price
-        box = self._region.box(columns, point)
-        quadratic = None if step < _ROUGH else self._quadratic(states)
         free = columns.free
         found = minimise_in_band(
             cost[free],
@@ -223,22 +287,18 @@ class ChainDescent:
             upper,
             box[free],
             None if quadratic is None else quadratic[free][:, free],
-            tolerance=1e-5 if step < _ROUGH else 1e-6 if self.dense else 1e-9,
+            tolerance=tolerance,
             deadline=deadline,
         )
         x = np.zeros(columns.size)
         x[free] = found.x
-        each = np.zeros(len(slack))
-        each[near] = found.multipliers[: len(near)] / unit
-        self._weights = each.reshape(len(generations), -1).sum(axis=0)
+        weights = np.zeros(len(slack))
+        weights[near] = found.multipliers[: len(near)] / unit
+        self._weights = weights.reshape(len(generations), -1).sum(axis=0)
         self._peak_weights = found.multipliers[len(near) :].reshape(2, *point.v.shape).sum(axis=0)
         self._foreseen = x[columns.missed]
-        self._failures = 0 if found.converged else self._failures + self.dense
-        if self._ending or (self.dense and step >= _ROUGH):
-            cheap = self._foreseen > (1e-6 if self._ending else 1e-3)
-            self._price[cheap] = np.minimum(4.0 * self._price[cheap], _DEAREST)
         T = np.maximum(point.T * (1.0 + x[columns.T]), relaxed.least)
-        return ChainPoint(T, point.v + x[columns.v], point.a + x[columns.a])
+        return ChainPoint(T, point.v + x[columns.v], point.a + x[columns.a]), found.converged
 
     def _quadratic(self, states: tuple[Array, ...]) -> csr_array:
         """Curvature of the rows, and a weight on each change of a state, which keeps idle joints calm."""
@@ -273,10 +333,10 @@ class ChainDescent:
         np.maximum.at(missing, (self.rows.segment, self.rows.joint), lacking)
         return missing
 
-    def _keep_feasible(self) -> None:
-        """Slow the point down until every row holds, and keep it if it is the fastest so far."""
+    def _keep_feasible(self, most: float = np.inf) -> None:
+        """Slow the point down, by ``most`` at most, until every row holds; keep it if it is the fastest."""
         total = float(self.point.T.sum())
-        room = self.seconds / total - 1.0
+        room = min(self.seconds / total - 1.0, most)
         if room <= 0.0 or not np.isfinite(total):
             return
         tried = [0.0, *(_SLOWER[room > _SLOWER].tolist())]
