@@ -18,6 +18,7 @@ import matplotlib.pyplot as plt
 import numpy as np
 from matplotlib.axes import Axes
 from matplotlib.figure import Figure
+from matplotlib.ticker import FuncFormatter
 
 from compare.engines import workers
 from compare.report.style import BLACK, BLUE, GREEN, GREY, ORANGE, VERMILION, styled
@@ -209,7 +210,8 @@ def as_text(rows: list[ScaleAnswer], summary: list[dict[str, Any]]) -> str:
     lines = [
         [
             str(row.waypoints), str(row.joints), f"{row.seconds:.5g}", f"{row.gap:.1e}", f"{row.motion:.2f}",
-            f"{row.proof:.2f}", f"{row.whole:.2f}", f"{row.elapsed:.2f}", f"{row.memory / _MEGABYTE:.0f}", row.status,
+            f"{row.proof:.2f}", f"{row.whole:.2f}", f"{row.elapsed:.2f}", f"{row.memory / _MEGABYTE:.0f}",
+            row.status,
         ]
         for row in rows
     ]  # fmt: skip
@@ -260,7 +262,12 @@ def figure(rows: list[ScaleAnswer], summary: list[dict[str, Any]]) -> Figure:
         axes.set(xscale="log", yscale="log", xlabel="waypoints")
         axes.set_xticks(counts, [f"{count:,}" for count in counts])
         axes.minorticks_off()
+        axes.yaxis.set_major_formatter(FuncFormatter(lambda value, _: f"{value:g}"))
         axes.legend(frameon=False, fontsize=8)
+    left.set_ylim(top=2.0 * max(float(whole.max()), *TARGETS.values()))
+    if np.isfinite(rows[-1].memory):
+        least, most = (pick(row.memory for row in rows) / _MEGABYTE for pick in (min, max))
+        right.set_ylim(0.2 * least, 2.0 * most)
     return drawn
 
 

@@ -5,7 +5,7 @@ from __future__ import annotations
 from typing import NamedTuple
 
 import numpy as np
-from scipy.sparse import csr_array
+from scipy.sparse import coo_array, csr_array
 
 from formulations.problem.arrays import Array, Indices, Truths
 from formulations.proofs.every_motion.attaining_motion.reach_rows import ReachRows
@@ -60,6 +60,30 @@ class ChainColumns(NamedTuple):
         k, j = rows.segment, rows.joint
         ends = [self.v[k, j], self.a[k, j], self.v[k + 1, j], self.a[k + 1, j]]
         return np.column_stack([self.T[k], *ends, self.missed[k]])
+
+    def quadratic(self, blocks: Array, of_v: Array, of_a: Array) -> csr_array:
+        """Place second derivatives.
+
+        Parameters
+        ----------
+        blocks : Array, shape (K, n, 5, 5)
+            With T and with v and a at both ends.
+        of_v, of_a : Array, shape (K + 1, n)
+            Further ones of each state with itself.
+
+        Returns
+        -------
+        csr_array, shape (size, size)
+        """
+        k, j = np.indices(blocks.shape[:2])
+        ends = [self.v[k, j], self.a[k, j], self.v[k + 1, j], self.a[k + 1, j]]
+        place = np.stack([self.T[k], *ends], axis=-1)
+        row = np.broadcast_to(place[..., :, None], blocks.shape).ravel()
+        column = np.broadcast_to(place[..., None, :], blocks.shape).ravel()
+        states = np.concatenate([self.v.ravel(), self.a.ravel()])
+        entries = np.concatenate([blocks.ravel(), of_v.ravel(), of_a.ravel()])
+        where = (np.concatenate([row, states]), np.concatenate([column, states]))
+        return csr_array(coo_array((entries, where), shape=(self.size, self.size)))
 
 
 def stacked(blocks: list[tuple[Indices, Array]], size: int) -> csr_array:

@@ -69,7 +69,8 @@ def smoothly_timed(
     second = float(start.T.mean())  # the unit of time
     spline = CubicSpline(np.arange(K + 1.0), waypoints)
     first, bend = spline(np.arange(K + 1), 1), spline(np.arange(K + 1), 2)
-    T, r, b, c = (casadi.SX.sym(name, size) for name, size in zip("Trbc", (K, K + 1, K + 1, K)))
+    T, c = casadi.SX.sym("T", K), casadi.SX.sym("c", K)
+    r, b = casadi.SX.sym("r", K + 1), casadi.SX.sym("b", K + 1)
     equal = casadi.vertcat(
         r[:-1] * T + b[:-1] * T**2 / 2.0 + c * T**3 / 6.0 - 1.0,
         r[:-1] + b[:-1] * T + c * T**2 / 2.0 - r[1:],

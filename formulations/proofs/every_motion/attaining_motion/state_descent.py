@@ -20,7 +20,7 @@ from collections.abc import Callable
 from dataclasses import replace
 
 import numpy as np
-from scipy.sparse import coo_array, csr_array, diags_array
+from scipy.sparse import csr_array, diags_array
 
 from formulations.deadlines import NEVER, Deadline
 from formulations.problem.arrays import Array
@@ -302,28 +302,11 @@ class ChainDescent:
 
     def _quadratic(self, states: tuple[Array, ...]) -> csr_array:
         """Curvature of the rows, and a weight on each change of a state, which keeps idle joints calm."""
-        columns = self.columns
         active = np.flatnonzero(self._weights > 1e-7)
         part = tuple(value[active] for value in states)
         blocks = self.rows[active].curvature(part, self._weights[active])
-        K, n = self.relaxed.displacements.shape
-        k, j = np.indices((K, n))
-        five = [
-            columns.T[k],
-            columns.v[k, j],
-            columns.a[k, j],
-            columns.v[k + 1, j],
-            columns.a[k + 1, j],
-        ]
-        place = np.stack(five, axis=-1)
-        row = np.broadcast_to(place[..., :, None], blocks.shape).ravel()
-        column = np.broadcast_to(place[..., None, :], blocks.shape).ravel()
-        calm = np.full(columns.v.size, _CALMER if self._ending else _CALM)
-        bend = (2.0 * self._peak * self._peak_weights).ravel() + calm
-        v, a = columns.v.ravel(), columns.a.ravel()
-        entries = np.concatenate([blocks.ravel(), calm, bend])
-        where = (np.concatenate([row, v, a]), np.concatenate([column, v, a]))
-        return csr_array(coo_array((entries, where), shape=(columns.size, columns.size)))
+        calm = np.full(self.columns.v.shape, _CALMER if self._ending else _CALM)
+        return self.columns.quadratic(blocks, calm, 2.0 * self._peak * self._peak_weights + calm)
 
     def _missing_at(self, point: ChainPoint, coefficients: Array) -> Array:
         states = self.rows.states(point)
