@@ -167,6 +167,11 @@ _ALL = (
         "timebound condition_gaps --count 100 --out report",
     ),
     Command(
+        "scale", "compare.commands.studies.scale:scale", STUDIES,
+        "Measure time and memory of motion and proof against the number of waypoints.",
+        "timebound scale --counts 10,30,100,300 --step 2.5 --out report",
+    ),
+    Command(
         "rivals", "compare.commands.studies.rivals:rivals", STUDIES,
         "Run other programs on the same tasks: times, broken limits, distance to the bound.",
         "timebound rivals sr4c --rivals drake_spline,scip --time-limit 30 --page rivals.html",

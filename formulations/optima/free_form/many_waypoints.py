@@ -26,6 +26,7 @@ from formulations.proofs.every_motion.attaining_motion.state_descent import Chai
 MANY = 40  # segments from which this search is the faster one, by measurement: 1 s against 6 s there
 _WIDE = 200  # segments times joints: fewer are quick in either way
 _FINEST = 1e-5  # relative tolerance that the search reaches
+_COARSEST = {False: 1e-4, True: 1e-3}  # and what costs it little, on a dense path
 _SLOWER = (0.0, 1e-9, 1e-7, 1e-6, 1e-5, 1e-4, 1e-3)  # tried in turn until the check is content
 _PROGRAMS = 150  # segments up to which the programs are tried where this search does not converge
 NAME = "waypoint states of the whole motion"
@@ -97,7 +98,7 @@ def found_in_linear_time(
         None where the check refuses the motion: it may leave the position limits between waypoints.
     """
     clock = time.perf_counter()
-    descent = ChainDescent(problem)
+    descent = ChainDescent(problem, deadline)
     stages = [Stage("stop and go", descent.seconds, "", time.perf_counter() - clock)]
     clock = time.perf_counter()
 
@@ -107,7 +108,7 @@ def found_in_linear_time(
 
     say(descent.seconds)
     with np.errstate(all="ignore"):  # what overflows is not finite, and the check refuses it
-        descent.run(min(max(tolerance, _FINEST), 1e-4), deadline, say)
+        descent.run(max(min(tolerance, _COARSEST[descent.dense]), _FINEST), deadline, say)
         status = SearchStatus.OK if descent.converged else SearchStatus.NOT_CONVERGED
         if not descent.converged and deadline.over:
             status = SearchStatus.INTERRUPTED if deadline.interrupted else SearchStatus.TIME_LIMIT

@@ -125,6 +125,7 @@ BAD = {
     "proofs": (["--each", "two"], '--each: unable to convert "two" into int'),
     "speed": (["--case", "bagging"], "--case: the papers' 14x14 matrix is 3-5-3's, bagging is 4-3-4"),
     "condition_gaps": (["--count", "0"], "--count"),
+    "scale": (["--counts", "10,1"], "--counts: 1 is no number of waypoints (2 to 2000)"),
     "free_form_study": (["--solver", "x"], '--solver: Invalid value "x"'),
     "rivals": (["--rivals", "pilz"], "--rivals: 'pilz' is not known (known: drake_spline"),
 }

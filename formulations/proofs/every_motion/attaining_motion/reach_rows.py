@@ -53,6 +53,23 @@ class ChainPoint:
         """
         return ChainPoint(self.T * factor, self.v / factor, self.a / factor**2)
 
+    def towards(self, other: ChainPoint, share: float) -> ChainPoint:
+        """Go a share of the way to another point.
+
+        Parameters
+        ----------
+        other : ChainPoint
+        share : float
+
+        Returns
+        -------
+        ChainPoint
+        """
+        if share == 1.0:
+            return other
+        mine, its = vars(self).values(), vars(other).values()
+        return ChainPoint(*(a + share * (b - a) for a, b in zip(mine, its, strict=True)))
+
 
 @dataclass(frozen=True)
 class ReachRows:
@@ -109,7 +126,26 @@ class ReachRows:
         k, j = self.segment, self.joint
         return point.T[k], point.v[k, j], point.a[k, j], point.v[k + 1, j], point.a[k + 1, j]
 
-    def _units(self, T: Array) -> tuple[Array, Array, Array]:
+    def units(self, states: tuple[Array, ...]) -> Array:
+        """Compute what full acceleration or full jerk gains in each row's segment.
+
+        On a dense path that is far below top speed, and the rows leave little room: what they miss means
+        something in this unit only.
+
+        Parameters
+        ----------
+        states : tuple of Array, shape (m,)
+
+        Returns
+        -------
+        Array, shape (m,)
+            In units of the top speed, at most 1.
+        """
+        ramp, bend, _ = self._scales(states[0])
+        jerky = self.relaxed.has_jerk[self.joint]
+        return np.minimum(np.minimum(ramp, np.where(jerky, bend, np.inf)), 1.0)
+
+    def _scales(self, T: Array) -> tuple[Array, Array, Array]:
         """Speed gained at full acceleration and at full jerk, and mean speed wanted, over top speed."""
         relaxed, j = self.relaxed, self.joint
         top = relaxed.velocity[j]
@@ -130,7 +166,7 @@ class ReachRows:
             Of v0, W0, v1, W1, V, A T and J T^2, as ``distance_coefficients`` has them.
         """
         T, v0, a0, v1, a1 = states
-        ramp, bend, _ = self._units(T)
+        ramp, bend, _ = self._scales(T)
         v0, v1, W0, W1 = self.sign * v0, self.sign * v1, self.sign * a0 * ramp, self.sign * a1 * ramp
         most = np.maximum(ramp, np.maximum(np.abs(W0), np.abs(W1)))
         found = np.empty((len(T), 7))
@@ -174,7 +210,7 @@ class ReachRows:
             Negative where the row is violated.
         """
         T, v0, a0, v1, a1 = states
-        ramp, bend, wanted = self._units(T)
+        ramp, bend, wanted = self._scales(T)
         sign = self.sign
         pull = sign * ramp * (c[:, 1] * a0 + c[:, 3] * a1)
         slack = sign * (c[:, 0] * v0 + c[:, 2] * v1) + pull
