@@ -16,6 +16,7 @@ import numpy as np
 
 from formulations.deadlines import Deadline
 from formulations.dynamics import ArmDynamics, dynamics_of
+from formulations.motion.tool_speed import tool_speed
 from formulations.motion.trajectory import Trajectory
 from formulations.motion.verdict import Verdict, check
 from formulations.optima.free_form.answer import FreeForm
@@ -33,6 +34,7 @@ _STRETCHES = 20
 _SLOWEST = 20.0  # more than that a motion is not slowed down before the program starts
 _MORE = 1.2  # of the excess: by so much margins are raised
 _KEPT = 1e-6  # of the limit: torques that exceed it by less are left to the last stretch
+_FAST = 1e-4  # the same of the tool's speed, which a stretch mends by as much
 
 NOTE = "the lower bound is that of the limits without torques"
 
@@ -169,10 +171,11 @@ class TorqueSearch:
                 if not converged:
                     break
                 self.converged, steps = True, found
-                excess = self._excess(found)
-                if excess.max() <= _KEPT:
+                excess, faster = self._excess(found), self._faster(found)
+                if excess.max() <= _KEPT and faster.max() <= 1.0 + _FAST:
                     break
                 program.margins += _MORE * excess
+                program.lower(faster)
         return steps
 
     def _excess(self, steps: Steps) -> Array:
@@ -186,6 +189,17 @@ class TorqueSearch:
         over = np.maximum(shares.max(axis=1) - 1.0, 0.0)
         edge = np.zeros((1, over.shape[1]))
         return np.asarray(np.maximum(np.concatenate([over, edge]), np.concatenate([edge, over])).T)
+
+    def _faster(self, steps: Steps) -> Array:
+        """By what factor the tool is faster than its limit on each step, (S M,)."""
+        asked = np.repeat(self.demands.tool_speed, steps.durations.shape[1])
+        chain = self.demands.problem.tool
+        if chain is None or not np.isfinite(asked).any():
+            return np.ones(len(asked))
+        still = np.zeros_like(self.demands.waits)
+        motion = steps.assembled(replace(self.demands, waits=still))
+        found = tool_speed(chain, motion, np.arange(len(asked)), asked).speed
+        return np.asarray(np.where(np.isfinite(asked), found / asked, 1.0))
 
 
 def require_holdable(demands: Demands, dynamics: ArmDynamics) -> None:
@@ -204,9 +218,9 @@ def require_holdable(demands: Demands, dynamics: ArmDynamics) -> None:
     problem = demands.problem
     fixed = demands.stops & ~np.ptp(demands.waypoints, axis=2).any(axis=1)
     held = np.abs(dynamics.holding(problem.waypoints))
-    over = held - dynamics.available
+    over = held / dynamics.available - 1.0
     for k in np.flatnonzero(fixed):
-        joint = int((over[k] / dynamics.available).argmax())
+        joint = int(over[k].argmax())
         if over[k, joint] > 0.0:
             unit = "N" if problem.units[joint] == "m" else "N m"
             raise InputError(

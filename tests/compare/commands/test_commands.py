@@ -125,6 +125,8 @@ BAD = {
     "proofs": (["--each", "two"], '--each: unable to convert "two" into int'),
     "speed": (["--case", "bagging"], "--case: the papers' 14x14 matrix is 3-5-3's, bagging is 4-3-4"),
     "condition_gaps": (["--count", "0"], "--count"),
+    "tool_gaps": (["--time-limit", "0"], "--time-limit: 0 is not positive"),
+    "torque_gaps": (["nowhere.urdf"], "nowhere.urdf: no such file"),
     "free_form_study": (["--solver", "x"], '--solver: Invalid value "x"'),
     "rivals": (["--rivals", "pilz"], "--rivals: 'pilz' is not known (known: drake_spline"),
 }
