@@ -42,7 +42,7 @@ _OPTIONS: dict[str, Any] = {
     "print_time": False,
     "ipopt.bound_relax_factor": 0.0,
     "ipopt.tol": 1e-8,
-    "ipopt.max_iter": 100,
+    "ipopt.max_iter": 300,
     "ipopt.mu_strategy": "adaptive",
     "error_on_fail": False,
     "show_eval_warnings": False,
