@@ -1,4 +1,4 @@
-"""The nonlinear program of the fastest motion within torque limits.
+"""The nonlinear program of the fastest motion within torque limits and limits on the tool.
 
     minimise    sum h
     subject to, on each step of duration h that all joints share, with jerk (a+ - a) / h,
@@ -6,9 +6,10 @@
         q+ = q + h v + h^2 (2 a + a+) / 6                                           (2)
         |a+ - a| <= J h                                                             (3)
         v, a at nodes and v + h a / 2 within the limits                             (4)
-        |M(q) a + C(q, v) v + g(q) + D v| <= (1 - margin) limit   at nodes, and in the middle    (5)
 
-and, where the tool point p is limited,
+and, where torques and the tool point p are limited,
+
+        |M(q) a + C(q, v) v + g(q) + D v| <= (1 - margin) limit   at nodes, and in the middle    (5)
         |J(q) v|^2 <= speed^2   at nodes, and at ``TOOL`` between them                    (6)
         |p(q) - p(w)|^2 <= r^2   at waypoints w with a ball                              (7)
 
@@ -31,8 +32,8 @@ from formulations.deadlines import NEVER, Deadline
 from formulations.deadlines.ipopt import StoppableIpopt
 from formulations.dynamics import ArmDynamics
 from formulations.dynamics.symbolic import symbolic_torques
-from formulations.optima.free_form.tool.symbols import point_function, square_speed
-from formulations.optima.torque.steps import Steps
+from formulations.optima.shared_steps.tool_symbols import point_function, square_speed
+from formulations.optima.shared_steps.steps import Steps
 from formulations.problem.arrays import Array
 from formulations.problem.demands import Demands
 
@@ -54,7 +55,7 @@ _RAISED = 0.9
 _INSIDE = 1e-9  # share by which limits are lowered: the tolerance of the solver
 
 
-class TorqueProgram:
+class StepProgram:
     """The program of one problem on M steps per segment.
 
     Attributes
@@ -65,13 +66,14 @@ class TorqueProgram:
         Limits of the tool's speed on the steps [m/s].
     """
 
-    def __init__(self, demands: Demands, dynamics: ArmDynamics, start: Steps) -> None:
+    def __init__(self, demands: Demands, dynamics: ArmDynamics | None, start: Steps) -> None:
         """Pose the program.
 
         Parameters
         ----------
         demands : Demands
-        dynamics : ArmDynamics
+        dynamics : ArmDynamics or None
+            None without torque limits.
         start : Steps
             Its number of steps is taken, and its times are the units.
         """
@@ -126,7 +128,6 @@ class TorqueProgram:
             inside = asked.position[rows].transpose(2, 1, 0) / unit[None, :, None]
             self._row(q[:, :-1] + H * v0 / 3.0, *inside)
             self._row(q[:, 1:] - H * v1 / 3.0, *inside)
-        torques = symbolic_torques(self.dynamics)
         scales = [casadi.repmat(casadi.DM(one), 1, N + 1) for one in (unit, rate, gain)]
 
         def inside(u: float, n: int) -> tuple[Any, ...]:
@@ -142,17 +143,8 @@ class TorqueProgram:
                 ]
             return tuple(x * scale[:, :n] for x, scale in zip(states, scales, strict=True))
 
-        self._torques = self._n_rows  # margins change the bounds of these rows
-        for u, n in ((0.0, N + 1), (0.5, N)):  # (5)
-            self._row(torques.map(n)(*inside(u, n)), -1.0, 1.0)
+        self._motors(q * scales[0], inside)
         self._tool(q * scales[0], inside)
-        held = [
-            k * M for k in np.flatnonzero(asked.stops & (np.ptp(asked.waypoints, axis=2).any(axis=1)))
-        ]
-        if held:  # where the arm stands still in a zone it holds its weight
-            still = casadi.DM.zeros(dof, len(held))
-            weight = casadi.repmat(casadi.DM(unit), 1, len(held))
-            self._row(torques.map(len(held))(q[:, held] * weight, still, still), -1.0, 1.0)
         if asked.cyclic:
             for one in (q, v, a):
                 self._row(one[:, 0] - one[:, N], 0.0, 0.0)
@@ -170,6 +162,19 @@ class TorqueProgram:
     @property
     def _n_rows(self) -> int:
         return sum(column.numel() for column, _, _ in self._rows)
+
+    def _motors(self, q: Any, inside: Callable[[float, int], tuple[Any, ...]]) -> None:
+        """Rows (5), whose bounds follow ``margins``; q: positions at the nodes (dof, N + 1) [rad]."""
+        self._torques, N, asked = self._n_rows, self.S * self.M, self.demands
+        if self.dynamics is None:
+            return
+        torques = symbolic_torques(self.dynamics)
+        for u, n in ((0.0, N + 1), (0.5, N)):
+            self._row(torques.map(n)(*inside(u, n)), -1.0, 1.0)
+        stops = np.flatnonzero(asked.stops & np.ptp(asked.waypoints, axis=2).any(axis=1))
+        if len(stops):  # where the arm stands still in a zone it holds its weight
+            still = casadi.DM.zeros(self.dof, len(stops))
+            self._row(torques.map(len(stops))(q[:, (stops * self.M).tolist()], still, still), -1.0, 1.0)
 
     def _tool(self, q: Any, inside: Callable[[float, int], tuple[Any, ...]]) -> None:
         """Rows (6), whose bounds follow ``speeds``, and (7); q: positions at the nodes (dof, N + 1) [rad]."""
@@ -279,8 +284,9 @@ class TorqueProgram:
         low, high = (np.concatenate([row[side] for row in self._rows]) for side in (1, 2))
         between = np.maximum(self.margins[:, 1:], self.margins[:, :-1])
         room = 1.0 - np.concatenate([self.margins, between], axis=1).ravel(order="F")
-        torques = slice(self._torques, self._torques + len(room))
-        low[torques], high[torques] = -room, room
+        if self.dynamics is not None:
+            torques = slice(self._torques, self._torques + len(room))
+            low[torques], high[torques] = -room, room
         allowed = self._allowed()
         high[self._speeds : self._speeds + len(allowed)] = allowed
         x_low, x_high = self._low.copy(), self._high.copy()
@@ -309,7 +315,7 @@ class TorqueProgram:
 
     @cached_property
     def _solver(self) -> StoppableIpopt:
-        return StoppableIpopt("torque", self._nlp, _OPTIONS)
+        return StoppableIpopt("steps", self._nlp, _OPTIONS)
 
     def _steps(self, x: Array) -> Steps:
         n = self.S * self.M
