@@ -151,8 +151,8 @@ def demand_costs(
     -----
     With motions of times u and lower bounds b, the least times differ by at least b - u' and at most
     u - b', where a prime marks the task without the demand. Where all motions of one task are motions of the
-    other too, the faster of both motions and the greater of both bounds serve both. The bounds are those of motions that pass
-    the check, whose tolerances can save a part in 1e8 (``FreeFormBound.least_verified``).
+    other too, the faster of both motions and the greater of both bounds serve both. The bounds are those of
+    motions that pass the check, whose tolerances can save a part in 1e8 (``FreeFormBound.least_verified``).
     They know nothing of torques, so that the least cost of a torque limit that is proved is 0.
 
     Examples

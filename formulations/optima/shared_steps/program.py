@@ -13,10 +13,11 @@ and, where torques and the tool point p are limited,
         |J(q) v|^2 <= speed^2   at nodes, and at ``TOOL`` between them                    (6)
         |p(q) - p(w)|^2 <= r^2   at waypoints w with a ball                              (7)
 
-(4) bounds the Bernstein coefficients of the velocity. Elsewhere torques may exceed (5), and speeds (6): ``search``
-looks there, raises the margins and lowers the speeds. Positions within limits are posed on Bernstein coefficients too. Joints without a
-jerk limit have no (3); their accelerations are continuous here, which costs little time on fine steps.
-All demands that are linear (zones, windows, times, states at the ends, cycles) are bounds or linear rows.
+(4) bounds the Bernstein coefficients of the velocity. Elsewhere torques may exceed (5), and speeds (6):
+``search`` looks there, raises the margins and lowers the speeds. Positions within limits are posed on Bernstein
+coefficients too. Joints without a jerk limit have no (3); their accelerations are continuous here, which costs
+little time on fine steps. All demands that are linear (zones, windows, times, states at the ends, cycles) are
+bounds or linear rows.
 """
 
 from __future__ import annotations
@@ -32,8 +33,8 @@ from formulations.deadlines import NEVER, Deadline
 from formulations.deadlines.ipopt import StoppableIpopt
 from formulations.dynamics import ArmDynamics
 from formulations.dynamics.symbolic import symbolic_torques
-from formulations.optima.shared_steps.tool_symbols import point_function, square_speed
 from formulations.optima.shared_steps.steps import Steps
+from formulations.optima.shared_steps.tool_symbols import point_function, square_speed
 from formulations.problem.arrays import Array
 from formulations.problem.demands import Demands
 
@@ -125,9 +126,9 @@ class StepProgram:
         self._row(v0 + H * speed_up * a0 / 2.0, *velocity)  # (4)
         bounded = asked.problem.limits.has_position or np.isfinite(asked.position).any()
         if bounded:
-            inside = asked.position[rows].transpose(2, 1, 0) / unit[None, :, None]
-            self._row(q[:, :-1] + H * v0 / 3.0, *inside)
-            self._row(q[:, 1:] - H * v1 / 3.0, *inside)
+            room = asked.position[rows].transpose(2, 1, 0) / unit[None, :, None]
+            self._row(q[:, :-1] + H * v0 / 3.0, *room)
+            self._row(q[:, 1:] - H * v1 / 3.0, *room)
         scales = [casadi.repmat(casadi.DM(one), 1, N + 1) for one in (unit, rate, gain)]
 
         def inside(u: float, n: int) -> tuple[Any, ...]:
@@ -328,4 +329,4 @@ def _at(share: float, speeds: Array) -> Array:
     if share:
         return speeds
     edge = [np.inf]
-    return np.minimum(np.concatenate([edge, speeds]), np.concatenate([speeds, edge]))
+    return np.asarray(np.minimum(np.concatenate([edge, speeds]), np.concatenate([speeds, edge])))

@@ -112,7 +112,9 @@ class StepSearch:
                 break
             factor *= verdict.stretch * (1.0 + 10.0 ** (attempt / 2.0 - 14.0))
             waits = self.demands.waits.any()
-            motion = steps.stretched(factor).assembled(self.demands) if waits else given.stretched(factor)
+            motion = (
+                steps.stretched(factor).assembled(self.demands) if waits else given.stretched(factor)
+            )
             verdict = check(problem, motion, conditions=asked)
         seconds = motion.seconds if verdict.feasible else np.inf
         if verdict.feasible and (self.best is None or seconds < self.best[2].seconds):

@@ -58,7 +58,9 @@ def test_both_limits_take_no_less_than_either_and_less_than_slowing_down() -> No
     assert both.seconds >= max(tool.seconds, motors.seconds) * (1.0 - 3e-3)
     assert not check(arm(1.5, 0.9), tool.trajectory).feasible  # each limit acts
     assert not check(arm(1.5, 0.9), motors.trajectory).feasible
-    slowed = next(s for s in both.found.stages if s.name.startswith("without limits on tool and torques"))
+    slowed = next(
+        s for s in both.found.stages if s.name.startswith("without limits on tool and torques")
+    )
     assert both.seconds < 0.97 * slowed.seconds
     assert both.bound is not None
     assert both.bound <= both.seconds
