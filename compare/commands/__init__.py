@@ -172,6 +172,16 @@ _ALL = (
         "timebound scale --counts 10,30,100,300 --step 2.5 --out report",
     ),
     Command(
+        "tool_gaps", "compare.commands.studies.tool_gaps:tool_gaps", STUDIES,
+        "Find motions under a limit of the tool's speed on random problems, and their gaps.",
+        "timebound tool_gaps --count 100 --out report",
+    ),
+    Command(
+        "torque_gaps", "compare.commands.studies.torque_gaps:torque_gaps", STUDIES,
+        "Find motions of an arm under torque limits on random problems, and their gaps.",
+        "timebound torque_gaps ur5_robot.urdf --payload 2 --count 100 --out report",
+    ),
+    Command(
         "rivals", "compare.commands.studies.rivals:rivals", STUDIES,
         "Run other programs on the same tasks: times, broken limits, distance to the bound.",
         "timebound rivals sr4c --rivals drake_spline,scip --time-limit 30 --page rivals.html",

@@ -14,6 +14,7 @@ import numpy as np
 
 from formulations.costs.left_out import left_out
 from formulations.deadlines import NEVER, Deadline
+from formulations.dynamics import torque_peaks
 from formulations.optima.free_form import FreeForm, SearchStatus, free_form
 from formulations.problem.conditions import Conditions
 from formulations.problem.errors import InputError, NoFeasibleMotion, NotFoundInTime
@@ -21,7 +22,12 @@ from formulations.problem.problem import Problem
 from formulations.proofs.every_motion.bound import FreeFormBound, free_form_bound
 
 _GAP, _PROOF = 1e-4, 20.0  # of each motion and its bound; s for one bound
-_MANY = ("all zones", "the limits")  # subjects that are plural
+_LOCAL = 1e-3  # gap of motions under limits on tool or motors, whose search takes long
+_MANY = ("all zones", "the limits", "the torque limits")  # subjects that are plural
+# a task with the slower motions has motions that are not among those of the other one
+_NOT_NESTED = ("segment limits", "cycle")
+_TORQUES = ("torque", "joint torque")  # the bound knows none, so that it is the same without them
+_IDLE = 0.99  # of its limit: a torque that stays below it does not hold a motion up
 _NOTHING = 1e-5  # s
 _CUT_SHORT = (SearchStatus.TIME_LIMIT, SearchStatus.INTERRUPTED)
 
@@ -34,7 +40,8 @@ class DemandCost:
     ----------
     demand : str
         Its kind: "zones" (all of them), "zone", "window", "passage", "least time", "greatest time",
-        "wait", "stop", "segment limits", "start state", "end state", "cycle", "total" or "asymmetric limit".
+        "wait", "stop", "segment limits", "start state", "end state", "cycle", "total", "asymmetric limit",
+        "tool speed", "segment tool speed", "tool ball", "torque" (of all joints) or "joint torque".
     what : str
         The demand in words; waypoints and segments count from 1.
     place : int or None
@@ -60,10 +67,10 @@ class DemandCost:
         """The cost in one sentence."""
         verb = ("save" if self.saves else "cost") + ("" if self.what.startswith(_MANY) else "s")
         most = _digits(self.greatest, up=True)
-        if self.greatest < _NOTHING:
-            return f"{self.what} {verb} nothing (proved: at most {most} s)"
-        proved = f"at least {_digits(self.least)} s" if self.least > 0.0 else f"at most {most} s"
-        return f"{self.what} {verb} {self.seconds:.4g} s (proved: {proved})"
+        found = "nothing" if abs(self.seconds) < _NOTHING else f"{self.seconds:.4g} s"
+        at_least = self.least > 0.0 and self.greatest >= _NOTHING
+        proved = f"at least {_digits(self.least)} s" if at_least else f"at most {most} s"
+        return f"{self.what} {verb} {found} (proved: {proved})"
 
     def to_json(self) -> dict[str, Any]:
         """The same as plain data; the place counts from 1."""
@@ -143,8 +150,10 @@ def demand_costs(
     Notes
     -----
     With motions of times u and lower bounds b, the least times differ by at least b - u' and at most
-    u - b', where a prime marks the task without the demand. The bounds are those of motions that pass
-    the check, whose tolerances can save a part in 1e8 (``FreeFormBound.least_verified``).
+    u - b', where a prime marks the task without the demand. Where all motions of one task are motions of the
+    other too, the faster of both motions and the greater of both bounds serve both. The bounds are those of
+    motions that pass the check, whose tolerances can save a part in 1e8 (``FreeFormBound.least_verified``).
+    They know nothing of torques, so that the least cost of a torque limit that is proved is 0.
 
     Examples
     --------
@@ -162,16 +171,23 @@ def demand_costs(
     if not demands or deadline.over:
         return ()
     say = progress or (lambda what: None)
+    found = found or _fastest(problem, deadline)
     whole = solved(problem, deadline, found)
     if whole is None:
         return ()
+    idle = _idle_motors(problem, found)
     costs = []
     for one in demands:
         if deadline.over:
             break
         say(one.what)
         try:
-            other = solved(replace(one.problem, conditions=one.conditions), deadline)
+            other = solved(
+                replace(one.problem, conditions=one.conditions),
+                deadline,
+                found if one.demand == "joint torque" and one.place in idle else None,
+                bound=whole.bound if one.demand in _TORQUES else None,
+            )
         except NotFoundInTime:
             break
         except (InputError, NoFeasibleMotion):
@@ -179,20 +195,22 @@ def demand_costs(
         if other is None:
             break
         faster, slower = (whole, other) if one.saves else (other, whole)
-        costs.append(
-            DemandCost(
-                one.demand,
-                one.what,
-                one.place,
-                one.saves,
-                *slower.over(faster),
-            )
-        )
+        nested = one.demand not in _NOT_NESTED
+        if nested:
+            faster = faster._replace(motion=min(faster.motion, slower.motion))
+            slower = slower._replace(bound=max(slower.bound, faster.bound))
+        seconds, least, most = slower.over(faster)
+        least = max(least, 0.0) if nested else least
+        costs.append(DemandCost(one.demand, one.what, one.place, one.saves, seconds, least, most))
     return tuple(sorted(costs, key=lambda cost: -cost.seconds))
 
 
 def solved(
-    problem: Problem, deadline: Deadline = NEVER, found: FreeForm | None = None
+    problem: Problem,
+    deadline: Deadline = NEVER,
+    found: FreeForm | None = None,
+    *,
+    bound: float | None = None,
 ) -> SolvedTask | None:
     """Find the fastest motion of a task and its bound.
 
@@ -203,15 +221,19 @@ def solved(
     deadline : Deadline
     found : FreeForm, optional
         Its motion, where it is known.
+    bound : float, optional [s]
+        Its bound, where it is known.
 
     Returns
     -------
     SolvedTask or None
         None where the time ended the search.
     """
-    motion = found or free_form(problem, tolerance=_GAP, time_limit=deadline.left, stop=deadline.stop)
+    motion = found or _fastest(problem, deadline)
     if motion.status in _CUT_SHORT:
         return None
+    if bound is not None:
+        return SolvedTask(motion.seconds, bound)
     proof: FreeFormBound = free_form_bound(
         problem,
         gap=_GAP,
@@ -219,9 +241,23 @@ def solved(
         time_limit=deadline.within(_PROOF).left,
         stop=deadline.stop,
     )
-    bound = proof.least_verified
     fixed = problem.conditions.times(problem).get(problem.n_segments)
-    return SolvedTask(motion.seconds, bound if fixed is None else max(bound, fixed))
+    return SolvedTask(motion.seconds, max(proof.least_verified, fixed or 0.0))
+
+
+def _fastest(problem: Problem, deadline: Deadline) -> FreeForm:
+    asked = problem.conditions
+    tolerance = _LOCAL if asked.on_tool or asked.torque is not None else _GAP
+    return free_form(problem, tolerance=tolerance, time_limit=deadline.left, stop=deadline.stop)
+
+
+def _idle_motors(problem: Problem, found: FreeForm | None) -> set[int]:
+    """Joints whose torques stay below their limits: the motion that was found is as good without these."""
+    torque = problem.conditions.torque
+    if torque is None or found is None or found.trajectory is None:
+        return set()
+    peaks = torque_peaks(problem, found.trajectory, torque)
+    return {peak.joint for peak in peaks if peak.factor < _IDLE}
 
 
 def _digits(seconds: float, *, up: bool = False) -> str:

@@ -11,6 +11,7 @@ from typing import Any, NamedTuple
 
 import numpy as np
 
+from formulations.dynamics import dynamics_of
 from formulations.problem.conditions import Conditions
 from formulations.problem.problem import Problem
 
@@ -50,24 +51,28 @@ def left_out(problem: Problem) -> Iterator[TaskWithout]:
 
 def _of_waypoints(problem: Problem) -> Iterator[TaskWithout]:
     asked, last = problem.conditions, problem.n_segments
-    kinds = (
-        ("zone", "the zone of", "tolerance", True),
-        ("window", "the window of", "windows", False),
-        ("passage", "the passage time of", "passage", False),
-    )
-    if len(asked.tolerance) > 1:
-        points = replace(asked, tolerance={})
+    zones = asked.boxes(problem.dof)  # a ball of the tool is a zone too
+    if len(zones) > 1:
+        points = replace(asked, tolerance={}, tool_zones={})
         yield TaskWithout("zones", "all zones together", None, True, problem, points)
-    for demand, words, key, saves in kinds:
+    ends = {0, last} if asked.cyclic else set()  # they are one waypoint
+    for k in sorted(zones):
+        if k == last and ends:
+            continue
+        gone = ends if k in ends else {k}
+        less = replace(
+            asked, tolerance=_less(asked.tolerance, gone), tool_zones=_less(asked.tool_zones, gone)
+        )
+        yield TaskWithout("zone", f"the zone of waypoint {k + 1}", k, True, problem, less)
+    for demand, words, key in (
+        ("window", "the window of", "windows"),
+        ("passage", "the passage time of", "passage"),
+    ):
         given: Mapping[int, Any] = getattr(asked, key)
-        ends = (0, last) if asked.cyclic and demand == "zone" else ()  # they are one waypoint
         for k in sorted(given):
-            if k == last and ends:
-                continue
-            gone = set(ends) if k in ends else {k}
-            rest: dict[str, Any] = {key: _less(given, gone)}
+            rest: dict[str, Any] = {key: _less(given, {k})}
             less = replace(asked, **rest)
-            yield TaskWithout(demand, f"{words} waypoint {k + 1}", k, saves, problem, less)
+            yield TaskWithout(demand, f"{words} waypoint {k + 1}", k, False, problem, less)
     for k in sorted(asked.waits):
         less = replace(asked, waits=_less(asked.waits, {k}))
         yield TaskWithout("wait", f"the wait at waypoint {k + 1}", k, False, problem, less)
@@ -126,11 +131,51 @@ def _of_directions(problem: Problem) -> Iterator[TaskWithout]:
             yield TaskWithout("asymmetric limit", what, j, False, wider, problem.conditions)
 
 
+def _of_tool(problem: Problem) -> Iterator[TaskWithout]:
+    """The tool's speed, and its balls against the boxes of the joints alone."""
+    asked = problem.conditions
+    most = asked.tool_speed
+    if most is not None:
+        less = replace(asked, tool_speed=None)
+        yield TaskWithout("tool speed", "the limit of the tool's speed", None, False, problem, less)
+    for k, speed in sorted(asked.segment_tool_speed.items()):
+        less = replace(asked, segment_tool_speed=_less(asked.segment_tool_speed, {k}))
+        what = f"the limit of the tool's speed on segment {k + 1}"
+        saves = most is not None and speed > most
+        yield TaskWithout("segment tool speed", what, k, saves, problem, less)
+    boxes = asked.boxes(problem.dof)
+    for k in sorted(asked.tool_zones):
+        less = replace(
+            asked,
+            tolerance={**asked.tolerance, k: boxes[k]},
+            tool_zones=_less(asked.tool_zones, {k}),
+        )
+        what = f"the ball of the tool at waypoint {k + 1}, within the joints' zone,"
+        yield TaskWithout("tool ball", what, k, False, problem, less)
+
+
+def _of_motors(problem: Problem) -> Iterator[TaskWithout]:
+    """The torque limits, all and one by one."""
+    torque = problem.conditions.torque
+    if torque is None:
+        return
+    less = problem.conditions.without_torque()
+    yield TaskWithout("torque", "the torque limits", None, False, problem, less)
+    limits = dynamics_of(torque).limits
+    for j in range(problem.dof if problem.dof > 1 else 0):
+        free = np.where(np.arange(problem.dof) == j, np.inf, limits)
+        less = replace(problem.conditions, torque=torque.scaled(1.0, free))
+        what = f"{problem.joint_name(j)}'s torque limit"
+        yield TaskWithout("joint torque", what, j, False, problem, less)
+
+
 _KINDS: tuple[Callable[[Problem], Iterator[TaskWithout]], ...] = (
     _of_waypoints,
     _of_segments,
     _of_ends,
     _of_directions,
+    _of_tool,
+    _of_motors,
 )
 
 

@@ -214,10 +214,11 @@ def stretch_of(held: Array, damped: Array, driven: Array, available: Array) -> A
     least = np.full(np.shape(held), np.inf)  # the least speed 1 / s at which a limit is met
     for limit in (available, -available):
         excess = held - limit
-        root = np.sqrt(np.maximum(damped**2 - 4.0 * driven * excess, 0.0))
-        real = damped**2 >= 4.0 * driven * excess
-        h = -0.5 * (damped + np.copysign(root, damped))
+        # a limit may be infinite
         with np.errstate(divide="ignore", invalid="ignore", over="ignore"):
+            root = np.sqrt(np.maximum(damped**2 - 4.0 * driven * excess, 0.0))
+            real = damped**2 >= 4.0 * driven * excess
+            h = -0.5 * (damped + np.copysign(root, damped))
             for speed in (h / driven, excess / h):
                 least = np.where(real & (speed > 0.0) & (speed < least), speed, least)
     with np.errstate(divide="ignore"):

@@ -26,7 +26,6 @@ from formulations.optima.free_form.mesh_refinement import MeshRefinement
 from formulations.optima.free_form.nlp.assembly import RAMP
 from formulations.optima.free_form.nlp.conditioned import ConditionedProblem
 from formulations.optima.free_form.stage import VerifiedMotion
-from formulations.optima.free_form.tool.answer import under_tool
 from formulations.optima.free_form.vanishing import searched
 from formulations.optima.free_form.why_not import named, why_not
 from formulations.problem.conditions import Conditions
@@ -166,14 +165,14 @@ def free_form(
         raise InputError(f"tolerance: {tolerance:g} is not positive")
     if solver not in ("ipopt", "highs"):
         raise InputError(f"solver: {solver!r} is not known (known: highs, ipopt)")
-    if asked.torque is not None:
-        from formulations.optima.torque import torque_feasible  # it searches from what is found here
+    if asked.torque is not None or asked.on_tool:
+        from formulations.optima.shared_steps import fastest_within  # it starts from what is found here
 
-        return torque_feasible(
+        return fastest_within(
             Demands.of(problem, asked),
             partial(
                 free_form,
-                replace(problem, conditions=asked.without_torque()),
+                replace(problem, conditions=asked.without_torque().without_tool(problem.dof)),
                 mesh=mesh,
                 tolerance=tolerance,
                 solver=solver,
@@ -189,15 +188,6 @@ def free_form(
     if solver == "ipopt" and not casadi.has_nlpsol("ipopt"):
         solver = "highs"
         notes.append("this CasADi has no IPOPT: solved by sequential linear programs")
-    if asked.on_tool:
-        return under_tool(
-            problem,
-            asked,
-            partial(free_form, mesh=mesh, tolerance=tolerance, solver=solver, stop=stop),
-            tolerance,
-            deadline,
-            progress,
-        )
     task = ConditionedProblem(problem, asked)
     if not task.n_segments:
         return _nothing_moves(problem, asked, begun)

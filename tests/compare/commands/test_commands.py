@@ -126,6 +126,8 @@ BAD = {
     "speed": (["--case", "bagging"], "--case: the papers' 14x14 matrix is 3-5-3's, bagging is 4-3-4"),
     "condition_gaps": (["--count", "0"], "--count"),
     "scale": (["--counts", "10,1"], "--counts: 1 is no number of waypoints (2 to 2000)"),
+    "tool_gaps": (["--time-limit", "0"], "--time-limit: 0 is not positive"),
+    "torque_gaps": (["nowhere.urdf"], "nowhere.urdf: no such file"),
     "free_form_study": (["--solver", "x"], '--solver: Invalid value "x"'),
     "rivals": (["--rivals", "pilz"], "--rivals: 'pilz' is not known (known: drake_spline"),
 }

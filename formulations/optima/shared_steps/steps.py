@@ -27,6 +27,20 @@ class Steps:
     durations: Array
     states: Array
 
+    def stretched(self, factor: float) -> Steps:
+        """The same path, every time multiplied by a factor.
+
+        Parameters
+        ----------
+        factor : float
+
+        Returns
+        -------
+        Steps
+        """
+        powers = factor ** np.arange(3.0)[:, None, None]
+        return Steps(self.durations * factor, self.states / powers)
+
     def assembled(self, demands: Demands) -> Trajectory:
         """Make a trajectory that passes the waypoints exactly, and stands still where it has to wait.
 
