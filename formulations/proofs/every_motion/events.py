@@ -12,8 +12,14 @@ units:
     ["a", joint, segment, sign, s1, s2, y]            (2)      ["r", joint, segment, end, sign, s1, s2, y]  (3)
     ["b", waypoint, y] earliest, ["l", waypoint, y] latest (5)    ["m", joint, segment, end, corner, y] (11)
 
-Events: ["N", "T", segment, side, rows] or ["N", "a" or "x", waypoint, joint, side, rows] narrows a box (of a
-duration, an acceleration, or a position in a zone, from the middle of the zone) from
+Times T, for segments that may be short:
+
+    ["S", segment, y]  ["T", segment, t, y]  ["C", segment, t, y]  ["D", ...]  ["K", ...]  ["R", ...]
+    ["g", joint, segment, end, corner, y], ["x", ...]  products T v and T^2 a (9)
+    ["V", joint, waypoint, sign, a, y]  tangent of (10) at an acceleration
+
+Events: ["N", "T", segment, side, rows] or ["N", "a", "v" or "x", waypoint, joint, side, rows] narrows a box (of a
+duration, an acceleration, a velocity, or a position in a zone, from the middle of the zone) from
 below (side 0) or from above (side 1), with effect after the next ["P"], which also narrows the
 accelerations by (13), or ["R"], which does not. ["F", rows] ends with the bound, ["E", rows] with the
 proof that no motion is left, as does an event that leaves a box empty. Segments and joints have the
@@ -32,7 +38,10 @@ from formulations.problem.arrays import Array
 from formulations.proofs.every_motion.relaxation.boxes import Boxes
 from formulations.proofs.every_motion.relaxation.cuts import (
     PEAKS,
+    FADES,
     PRODUCTS,
+    SPEED_PRODUCTS,
+    SQUARE_PRODUCTS,
     STOPS,
     ZONES,
     Cuts,
@@ -139,6 +148,7 @@ def _narrowed(frame: Frame, column: int) -> tuple[Event, float]:
         return ["N", "T", int(relaxed.segments[column])], float(frame.typical[column])
     for name, columns, units in (
         ("a", frame.a, np.broadcast_to(relaxed.acceleration, frame.a.shape)),
+        ("v", frame.v, np.broadcast_to(relaxed.velocity, frame.v.shape)),
         ("x", frame.e, relaxed.zones),
     ):
         if (columns == column).any():
@@ -156,8 +166,9 @@ def _rows_of(program: LinearProgram, multipliers: Array) -> list[Event]:
     rows: list[Event] = []
     if y[0]:
         rows.append(["h", _hex(y[0] / relaxed.horizon)])
-    secants = np.flatnonzero(y[1 : frame.K + 1]).tolist()
-    rows += [["s", int(relaxed.segments[k]), _hex(y[k + 1] * unit[k])] for k in secants]
+    for k in np.flatnonzero(y[1 : frame.K + 1]).tolist():
+        by_unit = y[k + 1] / unit[k] ** 2 if frame.short[k] else y[k + 1] * unit[k]
+        rows.append(["S" if frame.short[k] else "s", int(relaxed.segments[k]), _hex(by_unit)])
     of_sums = y[frame.K + 1 : program.n_fixed].tolist()
     for (waypoint, side), value in zip(frame.bounded_sums, of_sums, strict=True):
         if value:
@@ -168,11 +179,25 @@ def _rows_of(program: LinearProgram, multipliers: Array) -> list[Event]:
         kind, k, j = Kind(int(cuts.kind[i])), int(cuts.segment[i]), int(cuts.joint[i])
         segment, joint, sign = int(relaxed.segments[k]), int(relaxed.joints[j]), int(cuts.sign[i])
         at, value = [_hex(x) for x in cuts.at[i]], float(of_cuts[i])
+        short, times_T = bool(frame.short[k]), bool(frame.times_T[k, j])
+        reach = value / (float(unit[k]) if times_T else 1.0)
+        of_reach = _hex(reach / float(relaxed.velocity[j]))
         by_speed = _hex(value / float(relaxed.velocity[j]))
         if kind == Kind.TANGENT:
-            rows.append(["t", segment, _hex(places[i]), _hex(value * unit[k])])
+            by_unit = value / (places[i] ** 2) if short else value * unit[k]
+            rows.append(["T" if short else "t", segment, _hex(places[i]), _hex(by_unit)])
         elif kind == Kind.HULL:
-            rows.append(["c", segment, _hex(places[i]), _hex(value / unit[k] ** 2)])
+            by_unit = value / unit[k] ** (3 if short else 2)
+            rows.append(["C" if short else "c", segment, _hex(places[i]), _hex(by_unit)])
+        elif kind in SPEED_PRODUCTS:
+            by_both = _hex(value / (unit[k] * float(relaxed.velocity[j])))
+            rows.append(["g", joint, segment, kind.end, int(cuts.at[i, 0]), by_both])
+        elif kind in SQUARE_PRODUCTS:
+            by_both = _hex(value / (unit[k] ** 2 * float(relaxed.acceleration[j])))
+            rows.append(["x", joint, segment, kind.end, int(cuts.at[i, 0]), by_both])
+        elif kind in FADES:
+            waypoint = int(relaxed.waypoints[k + kind.end])
+            rows.append(["V", joint, waypoint, sign, at[0], by_speed])
         elif kind in PRODUCTS:
             by_both = _hex(value / (unit[k] * float(relaxed.acceleration[j])))
             rows.append(["w", joint, segment, kind.end, int(cuts.at[i, 0]), by_both])
@@ -184,11 +209,15 @@ def _rows_of(program: LinearProgram, multipliers: Array) -> list[Event]:
         elif kind in PEAKS:
             rows.append(["v", joint, segment, kind.end, sign, at[0], by_speed])
         elif kind in STOPS:
-            rows.append(["r", joint, segment, kind.end, sign, *at[:2], by_speed])
+            name = "R" if times_T else "r"
+            rows.append([name, joint, segment, kind.end, sign, *at[:2], of_reach])
+        elif kind == Kind.CHANGE:
+            rows.append(["j", joint, segment, sign, _hex(value / float(relaxed.acceleration[j]))])
         elif kind == Kind.SPEED:
             rows.append(["a", joint, segment, sign, *at[:2], by_speed])
         else:
-            rows.append(["d" if kind == Kind.CRUISE else "k", joint, segment, sign, *at, by_speed])
+            name = "d" if kind == Kind.CRUISE else "k"
+            rows.append([name.upper() if times_T else name, joint, segment, sign, *at, of_reach])
     return rows
 
 

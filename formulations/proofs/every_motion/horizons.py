@@ -40,6 +40,7 @@ _AHEAD = 0.1  # of the bound: how far above it the horizon is then
 ROUNDS = 100  # of cuts
 _NEAR = 1e-2  # of the bound: how far above it the horizon of its certificate is at most
 _FARTHEST = 1e3  # displacements at top speed: where the search ends if no motion is left
+_SHORTEST = 1e-6  # of the horizon: the least unit of a duration that may be 0
 _BELOW = 1.0 - 2.0**-50  # more than the rounding of one sum
 _STALLED = 0.05  # of the way to the horizon: a step that gains less is no progress
 
@@ -133,14 +134,9 @@ class HorizonSearch:
         if self.plain and not self.problem.moving_joints:
             self.hunt.upper = 0.0
             return Ending(BoundStatus.PROVED)
-        if not self.seconds > 0.0:
-            too_small = "the displacements are too small for floats"
-            return Ending(
-                BoundStatus.SIMPLE, too_small if self.plain else "nothing forces it to take time"
-            )
+        if self.plain and not self.seconds > 0.0:
+            return Ending(BoundStatus.SIMPLE, "the displacements are too small for floats")
         relaxed = self.relaxed(self.known)
-        if not (np.maximum(relaxed.least, relaxed.at_top_speed) > 0.0).all():
-            return Ending(BoundStatus.SIMPLE, "its only two waypoints can coincide")
         if relaxed.cyclic and len(relaxed.least) < 2:
             return Ending(BoundStatus.SIMPLE, "all waypoints of the cycle can coincide")
         if not len(relaxed.joints):
@@ -222,7 +218,8 @@ class HorizonSearch:
                 return _out_of_time(deadline), boxes
             if solution.status != LPStatus.OPTIMAL:
                 return Ending(BoundStatus.SOLVER_FAILED, _why(solution)), boxes
-            typical = solution.x[frame.T] * typical
+            typical = solution.x[frame.T] * frame.typical
+            typical[frame.short] = np.maximum(typical[frame.short], _SHORTEST * horizon)
             self.typical[relaxed.segments], self.cuts = typical, program.cuts
             if self.plain:
                 of_bound = {"bound": self.seconds, "gap": gap}

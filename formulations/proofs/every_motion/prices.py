@@ -16,6 +16,7 @@ from formulations.problem.arrays import Array
 from formulations.problem.demands import Demands
 from formulations.proofs.every_motion.relaxation.cuts import (
     DISTANCES,
+    FADES,
     PEAKS,
     PRODUCTS,
     STOPS,
@@ -87,13 +88,14 @@ def _derivatives(frame: Frame, kind: Kind, cuts: Cuts, x: Array) -> tuple[Array,
     k, j = cuts.segment, cuts.joint
     none, with_it = np.zeros(len(k)), (cuts.sign > 0.0).astype(np.intp)
     if kind in (*DISTANCES, *STOPS, Kind.SPEED):
-        A, against = (frame.ramps[k, j, side] * x[frame.T[k]] for side in (with_it, 1 - with_it))
+        A, against = (frame.ramps[k, j, side] * x[frame.of_T[k]] for side in (with_it, 1 - with_it))
         if kind == Kind.STOP_AT_END:  # with time turned the joint brakes the other way
             A, against = against, A
         c_V, c_A, c_against, c_J = _limit_coefficients(kind, cuts.at)
-        J = frame.bend[k, j] * x[frame.square[k]]
-        return c_V * frame.top[k, j, with_it], c_A * A + c_against * against, c_J * J
-    if kind in PEAKS:
+        J = frame.bend[k, j] * x[frame.of_square[k]]
+        by_V = c_V * frame.top[k, j, with_it] * np.where(frame.times_T[k, j], x[frame.T[k]], 1.0)
+        return by_V, c_A * A + c_against * against, c_J * J
+    if kind in (*PEAKS, *FADES):
         top = frame.peak(kind.end, cuts)[0]
         return top, none, top - cuts.sign * x[frame.v[k + kind.end, j]]
     if kind in PRODUCTS:

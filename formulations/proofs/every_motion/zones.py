@@ -74,8 +74,6 @@ class ZoneSearch(HorizonSearch):
     def _first_bound(self, deadline: Deadline) -> float:
         """The bound in the first boxes, for the waypoints that are not left out [s]."""
         relaxed = self.relaxed(self.known)
-        if not (np.maximum(relaxed.least, relaxed.at_top_speed) > 0.0).all():
-            return 0.0
         boxes = first_boxes(self.demands, relaxed, None)
         if boxes.empty:
             return self.known

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 import numpy as np
 
@@ -22,6 +22,8 @@ class Boxes:
         Least and greatest acceleration of each joint at each waypoint.
     offsets : Array, shape (K + 1, n, 2) [rad]
         Least and greatest position in the zone of each waypoint, from the middle of the zone.
+    velocities : Array, shape (K + 1, n, 2) [rad/s]
+        Least and greatest velocity of each joint at each waypoint.
     empty : bool
         Whether it is proved that no motion is in the boxes.
     """
@@ -29,6 +31,7 @@ class Boxes:
     durations: Array
     accelerations: Array
     offsets: Array
+    velocities: Array
     empty: bool = False
 
     @staticmethod
@@ -49,13 +52,15 @@ class Boxes:
             np.stack([least, most], axis=1),
             joined_ends(relaxed, relaxed.a_boxes),
             joined_ends(relaxed, relaxed.zones[..., None] * (-1.0, 1.0)),
+            joined_ends(relaxed, relaxed.v_boxes),
             bool((least > most).any()),
         )
 
     @property
     def width(self) -> float:
         """Sum over the segments of the relative width of the duration's interval."""
-        return float((self.durations[:, 1] / self.durations[:, 0] - 1.0).sum())
+        low, high = self.durations.T
+        return float((high / np.where(low > 0.0, low, high) - 1.0).sum())
 
 
 def joined_ends(relaxed: RelaxedProblem, intervals: Array) -> Array:
@@ -91,8 +96,12 @@ def clipped(relaxed: RelaxedProblem, boxes: Boxes) -> Boxes:
     -------
     Boxes
     """
-    mine = joined_ends(relaxed, relaxed.a_boxes)
-    accelerations = boxes.accelerations.copy()
-    accelerations[..., 0] = np.maximum(accelerations[..., 0], mine[..., 0])
-    accelerations[..., 1] = np.minimum(accelerations[..., 1], mine[..., 1])
-    return Boxes(boxes.durations, accelerations, boxes.offsets, boxes.empty)
+    found = []
+    for mine, limits in (
+        (boxes.accelerations, relaxed.a_boxes),
+        (boxes.velocities, relaxed.v_boxes),
+    ):
+        limits = joined_ends(relaxed, limits)
+        low, high = np.maximum(mine[..., 0], limits[..., 0]), np.minimum(mine[..., 1], limits[..., 1])
+        found.append(np.stack([low, high], axis=-1))
+    return replace(boxes, accelerations=found[0], velocities=found[1])

@@ -5,9 +5,11 @@ from __future__ import annotations
 import numpy as np
 
 from formulations.problem.arrays import Array, Truths
-from formulations.proofs.every_motion.relaxation.boxes import Boxes, joined_ends
+from formulations.proofs.every_motion.relaxation.boxes import Boxes
 from formulations.proofs.every_motion.relaxation.relaxed_problem import DOWN, UP, RelaxedProblem
 
+_LEAST_UNIT = 1e-6  # of a short duration, in those of the longest
+_SHORT = 0.1  # of the greatest duration: 1 / T is not used below
 _ROOM = 1.0 + 1e-9  # (10) is posed where there is more time than an acceleration needs to fade
 
 
@@ -26,6 +28,14 @@ class Columns:
         Columns of the positions in zones, in units of ``relaxed.zones``; -1 where there is no zone.
     p : Indices, shape (K, n, 2)
         Columns of e / T at both ends, in units of e and T; -1 where there is no zone.
+    short : Truths, shape (K,)
+        Which segments may take no time, or next to none: their rows are taken times T.
+    times_T : Truths, shape (K, n)
+        Whose rows are taken times T: those of short segments, and of joints with a velocity limit only.
+    g, X : Indices, shape (K, n, 2)
+        Columns of T v and T^2 a at both ends of a short segment; -1 elsewhere.
+    cube : Indices, shape (K,)
+        Columns of T^3 of short segments; -1 elsewhere.
     box : Array, shape (size, 2)
         Lower and upper bound of every variable.
     cost : Array, shape (size,)
@@ -43,14 +53,20 @@ class Columns:
         typical : Array, shape (K,) [s]
             The unit of each duration.
         """
-        self.relaxed, self.boxes, self.typical = relaxed, boxes, typical
+        self.relaxed, self.boxes = relaxed, boxes
         durations = boxes.durations
+        self.short = durations[:, 0] <= (0.0 if relaxed.plain else _SHORT) * durations[:, 1]
+        least = _LEAST_UNIT * durations[:, 1].max(initial=0.0)
+        typical = np.where(self.short, np.maximum(durations[:, 1], least), typical)
+        self.typical = typical
+        self.times_T = self.short[:, None] | relaxed.by_speed_alone
         K, n = self.K, self.n = relaxed.displacements.shape
         self._number_columns(K, n)
         self.low, self.high = durations[:, 0] / typical * DOWN, durations[:, 1] / typical * UP
         # velocities and accelerations in units of their limits, W = T a in those of T and a
         self.a_low, self.a_high = _shares(boxes.accelerations, relaxed.acceleration)
         self.e_low, self.e_high = _shares(boxes.offsets, relaxed.zones)
+        self.v_low, self.v_high = _shares(boxes.velocities, relaxed.velocity)
         self.box = self._boxes()
         self.cost = np.zeros(self.size)
         self.cost[self.T] = typical
@@ -70,7 +86,9 @@ class Columns:
     def _number_columns(self, K: int, n: int) -> None:
         zones = self.relaxed.zones > 0.0
         at_ends = np.stack([zones[:-1], zones[1:]], axis=-1)
+        short = int(self.short.sum())
         sizes = [K, K, K, (K + 1) * n, (K + 1) * n, 2 * K * n, int(zones.sum()), int(at_ends.sum())]
+        sizes += [2 * short * n, 2 * short * n, short]
         ends = np.cumsum(sizes)
         self.size = int(ends[-1])
         numbers = np.split(np.arange(self.size), ends[:-1])
@@ -79,18 +97,33 @@ class Columns:
         self.W = numbers[5].reshape(K, n, 2)
         self.e, self.p = np.full((K + 1, n), -1), np.full((K, n, 2), -1)
         self.e[zones], self.p[at_ends] = numbers[6], numbers[7]
+        self.g, self.X, self.cube = np.full((K, n, 2), -1), np.full((K, n, 2), -1), np.full(K, -1)
+        for columns, block in zip((self.g, self.X, self.cube), numbers[8:], strict=True):
+            columns[self.short] = block.reshape(short, *columns.shape[1:])
         if self.relaxed.cyclic:
             for columns in (self.v, self.a, self.e):
                 columns[-1] = columns[0]
+        # what plays the part of T, T^2, v, W and p in the rows of a segment, times T where that is short
+        both_ends = [np.stack([columns[:-1], columns[1:]], axis=-1) for columns in (self.v, self.e)]
+        self.of_T, self.of_square = (
+            np.where(self.short, times_T, usual)
+            for times_T, usual in ((self.square, self.T), (self.cube, self.square))
+        )
+        self.of_v, self.of_W = (
+            np.where(self.short[:, None, None], times_T, usual)
+            for times_T, usual in ((self.g, both_ends[0]), (self.X, self.W))
+        )
+        self.of_p = np.where(self.times_T[..., None], both_ends[1], self.p)
 
     def _boxes(self) -> Array:
         low, high, relaxed = self.low, self.high, self.relaxed
         box = np.zeros((self.size, 2))
         box[self.T] = np.stack([low, high], axis=1)
-        box[self.inverse] = np.stack([1.0 / high * DOWN, 1.0 / low * UP], axis=1)
+        long = ~self.short
+        bounds = [1.0 / high[long] * DOWN, 1.0 / low[long] * UP]
+        box[self.inverse[long]] = np.stack(bounds, axis=1)
         box[self.square] = np.stack([low**2 * DOWN, high**2 * UP], axis=1)
-        speeds = _shares(joined_ends(relaxed, relaxed.v_boxes), relaxed.velocity)
-        box[self.v] = np.stack(speeds, axis=-1)
+        box[self.v] = np.stack([self.v_low, self.v_high], axis=-1)
         box[self.a] = np.stack([self.a_low, self.a_high], axis=-1)
         most = np.maximum(-self.a_low, self.a_high)
         for end in (0, 1):
@@ -100,10 +133,24 @@ class Columns:
         box[self.e[there]] = np.stack([self.e_low[there], self.e_high[there]], axis=-1)
         most = np.maximum(np.abs(self.e_low), np.abs(self.e_high))
         for end in (0, 1):
-            k, j = np.nonzero(there[end : self.K + end])
+            k, j = np.nonzero(there[end : self.K + end] & long[:, None])
             reach = most[k + end, j] / low[k] * UP**2
             box[self.p[k, j, end]] = np.stack([-reach, reach], axis=-1)
+        self._box_times_T(box)
         return box
+
+    def _box_times_T(self, box: Array) -> None:
+        """Fill in the boxes of T v, T^2 a and T^3 of short segments."""
+        low, high, short = self.low[self.short], self.high[self.short], self.short
+        box[self.cube[short]] = np.stack([low**3 * DOWN, high**3 * UP], axis=1)
+        for columns, least, greatest, factor in (
+            (self.g, self.v_low, self.v_high, high),
+            (self.X, self.a_low, self.a_high, high**2 * UP),
+        ):
+            most = np.maximum(-least, greatest)
+            for end in (0, 1):
+                reach = most[end : self.K + end][short] * factor[:, None] * UP
+                box[columns[short, :, end]] = np.stack([-reach, reach], axis=-1)
 
     def _times_to_fade(self) -> tuple[Truths, Truths]:
         """Where an acceleration at a waypoint has the time to rise from 0 before it, or to fall to 0 after it.

@@ -36,17 +36,9 @@ def kept_waypoints(demands: Demands, without: frozenset[int] = frozenset()) -> I
     last = len(demands.waits) - 1
     kept = [0]
     for i in range(1, last):
-        if i not in without and _takes_time(demands, kept[-1], i):
+        if i not in without:
             kept.append(i)
-    while len(kept) > 1 and not _takes_time(demands, kept[-1], last):
-        kept.pop()
     return np.array([*kept, last], dtype=np.intp)
-
-
-def _takes_time(demands: Demands, start: int, end: int) -> bool:
-    """Whether zones that do not meet, least times or waits force time between two waypoints."""
-    forced = demands.durations[start:end, 0].any() or demands.waits[start + 1 : end].any()
-    return bool(forced or gaps(demands.waypoints[[start, end]]).any())
 
 
 def gaps(boxes: Array) -> Array:

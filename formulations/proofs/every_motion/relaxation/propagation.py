@@ -21,6 +21,8 @@ the latter is the acceleration limit or J H / 4; short segments leave it no more
 
 from __future__ import annotations
 
+from dataclasses import replace
+
 import numpy as np
 
 from formulations.problem.arrays import Array, Truths
@@ -66,7 +68,7 @@ def propagate(relaxed: RelaxedProblem, boxes: Boxes) -> Boxes:
     accelerations[:, limited] = found
     accelerations = joined_ends(relaxed, accelerations)
     empty = bool((accelerations[..., 0] > accelerations[..., 1]).any())
-    return Boxes(boxes.durations, accelerations, boxes.offsets, empty)
+    return replace(boxes, accelerations=accelerations, empty=empty)
 
 
 def _ways(relaxed: RelaxedProblem, boxes: Boxes, sign: float, joints: Truths) -> tuple[Array, Array]:

@@ -62,6 +62,10 @@ class RelaxedProblem:
         Whether positions, velocities and accelerations are the same at both ends.
     fades : tuple of bool
         Whether an acceleration has to come from 0 after the start, and to fall to 0 before the end.
+    by_speed_alone : Truths, shape (n,)
+        Which joints have a velocity limit only; they are here where a waypoint is a zone.
+    plain : bool
+        Whether the problem has no conditions; each segment takes time then.
     segments : Indices, shape (K,)
         The problem's number of the waypoint where each segment starts.
     joints : Indices, shape (n,)
@@ -89,6 +93,8 @@ class RelaxedProblem:
     arrivals: Array
     cyclic: bool
     fades: tuple[bool, bool]
+    by_speed_alone: Truths
+    plain: bool
     segments: Indices
     joints: Indices
     end: int
@@ -154,6 +160,8 @@ class RelaxedProblem:
         accelerations = np.minimum(
             np.abs(between.hull(demands.acceleration[:, joints])), steepest[:, None]
         )
+        alone = ~_limited(demands)[joints]
+        accelerations[:, alone] = velocities[:, alone]  # a unit: their rows have no acceleration
         jerks = between.hull(np.stack(2 * [demands.jerk[:, joints]], axis=-1))[..., 1]
         jerks = np.where(np.isfinite(jerks), jerks, 0.0)
         return RelaxedProblem(
@@ -182,6 +190,8 @@ class RelaxedProblem:
             arrivals=_arrivals(demands, kept),
             cyclic=demands.cyclic,
             fades=_fades(demands),
+            by_speed_alone=~_limited(demands)[joints],
+            plain=demands.plain,
             segments=kept[:-1],
             joints=joints,
             end=int(kept[-1]) if len(kept) else 0,
@@ -266,7 +276,8 @@ def _joints_in_rows(demands: Demands) -> Indices:
     moves = box[..., 0].max(axis=0) > box[..., 1].min(axis=0)
     for states in (demands.end_velocity, demands.end_acceleration):
         moves |= ((states[..., 0] > 0.0) | (states[..., 1] < 0.0)).any(axis=0)
-    return np.flatnonzero(moves & _limited(demands))
+    zones = (box[..., 0] < box[..., 1]).any(axis=0)
+    return np.flatnonzero(moves & (_limited(demands) | zones))
 
 
 def _by_velocity_alone(demands: Demands, kept: Indices) -> Array:

@@ -38,7 +38,17 @@ import numpy as np
 
 from formulations.problem.arrays import Array, Indices, Truths
 from formulations.proofs.every_motion.relaxation.columns import Columns
-from formulations.proofs.every_motion.relaxation.cuts import PEAKS, PRODUCTS, STOPS, ZONES, Cuts, Kind
+from formulations.proofs.every_motion.relaxation.cuts import (
+    FADES,
+    PEAKS,
+    PRODUCTS,
+    SPEED_PRODUCTS,
+    SQUARE_PRODUCTS,
+    STOPS,
+    ZONES,
+    Cuts,
+    Kind,
+)
 from formulations.proofs.every_motion.relaxation.inequalities import Rows, Terms
 from formulations.proofs.every_motion.relaxation.reach import (
     arc_coefficients,
@@ -61,7 +71,13 @@ class Frame(Columns):
         share = list(self.typical[:, None] / self.relaxed.horizon)
         total = self._rows([np.array([column]) for column in self.T], share, np.ones(1))
         columns = [self.inverse, self.T]
-        secants = self._rows(columns, [one, 1.0 / (low * high)], 1.0 / low + 1.0 / high).normal()
+        with np.errstate(divide="ignore", invalid="ignore"):
+            a, upper = [one, 1.0 / (low * high)], 1.0 / low + 1.0 / high
+        if self.short.any():  # times T and its two bounds
+            columns = [np.where(self.short, self.square, self.inverse), self.T]
+            a = [one, np.where(self.short, -(low + high), a[1])]
+            upper = np.where(self.short, -low * high, upper)
+        secants = self._rows(columns, a, upper).normal()
         blocks = [total.rows(self.size), secants.rows(self.size)]
         for i, side in self.bounded_sums:
             bound = float(self.relaxed.arrivals[i, side])
@@ -118,8 +134,14 @@ class Frame(Columns):
             return self._of_duration(kind, cuts)
         if kind in PRODUCTS:
             return self._product(kind.end, cuts)
+        if kind in (*SPEED_PRODUCTS, *SQUARE_PRODUCTS):
+            return self._product_times_T(kind, cuts)
         if kind in ZONES:
             return self._zone(kind.end, cuts)
+        if kind in FADES:
+            return self._fade(kind.end, cuts)
+        if kind == Kind.CHANGE:
+            return self._change(cuts)
         if kind in PEAKS:
             return self._peak(kind.end, cuts)
         if kind in STOPS:
@@ -143,17 +165,70 @@ class Frame(Columns):
     def _of_duration(self, kind: Kind, cuts: Cuts) -> Terms:
         k, t, one = cuts.segment, self.place(cuts), np.ones(len(cuts))
         if kind == Kind.TANGENT:
-            return self._rows([self.T[k], self.inverse[k]], [-1.0 / t**2, -one], -2.0 / t).normal()
+            column, a, upper = self._anchored(self.short[k], k, -one, -2.0 / t)
+            return self._rows([self.of_T[k], column], [-1.0 / t**2, a], upper).normal()
         h = self.high[k]
-        columns = [self.square[k], self.T[k], self.inverse[k]]
-        a = [one, -(h + 2.0 * t), -h * t**2]
-        return self._rows(columns, a, -(2.0 * h * t + t**2)).normal()
+        column, a, upper = self._anchored(self.short[k], k, -h * t**2, -(2.0 * h * t + t**2))
+        columns = [self.of_square[k], self.of_T[k], column]
+        return self._rows(columns, [one, -(h + 2.0 * t), a], upper).normal()
+
+    def _anchored(
+        self, times_T: Truths, k: Indices, of_inverse: Array, upper: Array
+    ) -> tuple[Indices, Array, Array]:
+        """The term in 1 / T and the right hand side of a row: where it is taken times T they are upper T and 1.
+
+        Returns
+        -------
+        column : Indices, shape (m,)
+        coefficient, upper : Array, shape (m,)
+        """
+        column = np.where(times_T, self.T[k], self.inverse[k])
+        return (
+            column,
+            np.where(times_T, -upper, of_inverse),
+            np.where(times_T, -of_inverse, upper),
+        )
 
     def _product(self, end: int, cuts: Cuts) -> Terms:
         k, j = cuts.segment, cuts.joint
         t, e, side = self.corner(cuts, end)
         columns = [self.W[k, j, end], self.a[k + end, j], self.T[k]]
         return self._rows(columns, [-side, side * t, side * e], side * t * e)
+
+    def _product_times_T(self, kind: Kind, cuts: Cuts) -> Terms:
+        """Products (9) of T and v, or of T^2 and a, in short segments."""
+        k, j, corner, end = cuts.segment, cuts.joint, cuts.at[:, 0], kind.end
+        upper, low_T = (corner == 1) | (corner == 2), corner % 2 == 0
+        if kind in SPEED_PRODUCTS:
+            t = np.where(low_T, self.low[k], self.high[k])
+            f = np.where(upper, self.v_high[k + end, j], self.v_low[k + end, j])
+            columns = [self.g[k, j, end], self.v[k + end, j], self.T[k]]
+        else:
+            t = np.where(low_T, self.low[k] ** 2 * DOWN, self.high[k] ** 2 * UP)
+            f = np.where(upper, self.a_high[k + end, j], self.a_low[k + end, j])
+            columns = [self.X[k, j, end], self.a[k + end, j], self.square[k]]
+        side = np.where(corner < 2, 1.0, -1.0)
+        # a segment that is not short any more has no such product
+        bound = np.where(self.short[k], side * t * f, np.inf)
+        return self._rows(columns, [-side, side * t, side * f], bound)
+
+    def _change(self, cuts: Cuts) -> Terms:
+        k, j, sign = cuts.segment, cuts.joint, cuts.sign
+        _require(self.relaxed.has_jerk[j])
+        per_T = self.bend[k, j] / self.ramp[k, j]
+        columns = [self.a[k + 1, j], self.a[k, j], self.T[k]]
+        return self._rows(columns, [sign, -sign, -per_T], np.zeros(len(k)))
+
+    def _fade(self, end: int, cuts: Cuts) -> Terms:
+        """Tangents of (10) at an acceleration."""
+        k, j, sign = cuts.segment, cuts.joint, cuts.sign
+        _require(self.relaxed.has_jerk[j])
+        f = cuts.at[:, 0] / self.relaxed.acceleration[j]
+        top, bend, sound = self.peak(end, cuts)
+        share = self.ramp[k, j] ** 2 / bend
+        columns = [self.v[k + end, j], self.a[k + end, j]]
+        upper = np.where(sound, top + 0.5 * share * f**2, np.inf)
+        return self._rows(columns, [sign, sign * share * f], upper)
 
     def _zone(self, end: int, cuts: Cuts) -> Terms:
         k, j, corner = cuts.segment, cuts.joint, cuts.at[:, 0]
@@ -162,7 +237,8 @@ class Frame(Columns):
         f = np.where(upper, self.e_high[k + end, j], self.e_low[k + end, j])
         side = np.where(corner < 2, 1.0, -1.0)
         columns = [self.p[k, j, end], self.e[k + end, j], self.inverse[k]]
-        return self._rows(columns, [-side, side * u, side * f], side * u * f)
+        bound = np.where(self.short[k], np.inf, side * u * f)
+        return self._rows(columns, [-side, side * u, side * f], bound)
 
     def _peak(self, end: int, cuts: Cuts) -> Terms:
         k, j, sign = cuts.segment, cuts.joint, cuts.sign
@@ -172,7 +248,7 @@ class Frame(Columns):
         share = self.ramp[k, j] ** 2 / bend
         columns = [self.v[k + end, j], self.W[k, j, end], self.square[k]]
         # LinearProgram leaves infinite rows out
-        upper = np.where(sound, top, np.inf)
+        upper = np.where(sound & ~self.short[k], top, np.inf)
         return self._rows(columns, [sign, share * c, -0.5 * share * c**2], upper)
 
     def peak(self, end: int, cuts: Cuts) -> tuple[Array, Array, Truths]:
@@ -214,11 +290,12 @@ class Frame(Columns):
         room = self.room[k, end, j, side] / self.typical[k]
         ramp, bend = self.ramp[k, j], self.bend[k, j]
         away = self.ramps[k, j, 1 - side]  # the acceleration that points away from the limit
-        columns = [self.v[k + end, j], self.W[k, j, end], self.inverse[k], self.T[k], self.square[k]]
-        a = [sign * c_v, sign * c_W * ramp, -room, -c_A * away, -c_J * bend]
-        columns.append(np.maximum(self.p[k, j, end], 0))
+        column, of_room, upper = self._anchored(self.times_T[k, j], k, -room, np.zeros(len(k)))
+        columns = [self.of_v[k, j, end], self.of_W[k, j, end], column, self.of_T[k], self.of_square[k]]
+        a = [sign * c_v, sign * c_W * ramp, of_room, -c_A * away, -c_J * bend]
+        columns.append(np.maximum(self.of_p[k, j, end], 0))
         a.append(np.where(side == 1, 1.0, -1.0) * self.shift[k, j, end])
-        return self._rows(columns, a, np.zeros(len(k)))
+        return self._rows(columns, a, upper)
 
     def _speed(self, cuts: Cuts) -> Terms:
         k, j, sign = cuts.segment, cuts.joint, cuts.sign
@@ -237,14 +314,17 @@ class Frame(Columns):
         _require(self.relaxed.has_jerk[j] | (c_J == 0.0))
         ramp, bend, forwards = self.ramp[k, j], self.bend[k, j], _forwards(sign)
         arcs = rising * self.ramps[k, j, forwards] + falling * self.ramps[k, j, 1 - forwards]
-        columns = [self.inverse[k], self.v[k, j], self.v[k + 1, j], self.W[k, j, 0], self.W[k, j, 1]]
-        a = [sign * self.distance[k, j], -sign * c_v0, -sign * c_v1, -sign * c_W0 * ramp]
+        column, of_distance, upper = self._anchored(
+            self.times_T[k, j], k, sign * self.distance[k, j], c_V * self.top[k, j, forwards]
+        )
+        columns = [column, self.of_v[k, j, 0], self.of_v[k, j, 1], self.of_W[k, j, 0], self.of_W[k, j, 1]]
+        a = [of_distance, -sign * c_v0, -sign * c_v1, -sign * c_W0 * ramp]
         a += [-sign * c_W1 * ramp, -arcs, -c_J * bend]
-        columns += [self.T[k], self.square[k]]
+        columns += [self.of_T[k], self.of_square[k]]
         for end, side in ((0, -sign), (1, sign)):
-            columns.append(np.maximum(self.p[k, j, end], 0))
+            columns.append(np.maximum(self.of_p[k, j, end], 0))
             a.append(side * self.shift[k, j, end])  # 0 where there is no zone
-        return self._rows(columns, a, c_V * self.top[k, j, forwards])
+        return self._rows(columns, a, upper)
 
     def corner(self, cuts: Cuts, end: int) -> tuple[Array, Array, Array]:
         """Return the bounds t and e of products (9) and the sign of their rows.
