@@ -78,12 +78,13 @@ def first_boxes(demands: Demands, relaxed: RelaxedProblem, boxes: Boxes | None) 
         least = relaxed.at_top_speed
         if demands.plain:
             least = np.maximum(least_durations(demands.problem)[relaxed.segments], least)
-        least = np.maximum(least * (1.0 - _LOOSER), relaxed.least)
-        boxes = Boxes.around(relaxed, least, relaxed.most)
+        least = np.maximum(least * (1.0 - _LOOSER), relaxed.least)[: relaxed.K]
+        boxes = Boxes.around(relaxed, least, relaxed.most[: relaxed.K])
     durations = boxes.durations.copy()
     # no duration is longer than what the least durations of the others leave
-    others = durations[:, 0].sum() - durations[:, 0]
-    durations[:, 1] = np.minimum(durations[:, 1], relaxed.horizon * (1.0 + 1e-12) - others)
+    segments = durations[: relaxed.K]
+    others = segments[:, 0].sum() - segments[:, 0]
+    segments[:, 1] = np.minimum(segments[:, 1], relaxed.horizon * (1.0 + 1e-12) - others)
     empty = bool((durations[:, 0] > durations[:, 1]).any())
     return propagate(relaxed, clipped(relaxed, replace(boxes, durations=durations, empty=empty)))
 

@@ -136,16 +136,16 @@ class _Events:
 
 def _first_boxes(relaxed: RelaxedProblem) -> Boxes:
     """From displacement over top speed, from what the others leave, and from the limits."""
-    least = np.maximum(DOWN * relaxed.at_top_speed, relaxed.least)
-    most = np.minimum(relaxed.most, relaxed.horizon * UP - (least.sum() - least))
+    least = np.maximum(DOWN * relaxed.at_top_speed, relaxed.least)[: relaxed.K]
+    most = np.minimum(relaxed.most[: relaxed.K], relaxed.horizon * UP - (least.sum() - least))
     return Boxes.around(relaxed, least, most)
 
 
 def _narrowed(frame: Frame, column: int) -> tuple[Event, float]:
     """The head of the event that narrows a variable, and the variable's unit."""
     relaxed = frame.relaxed
-    if column < frame.K:
-        return ["N", "T", int(relaxed.segments[column])], float(frame.typical[column])
+    if column < frame.L:
+        return ["N", "T", _leg(relaxed, column)], float(frame.typical[column])
     for name, columns, units in (
         ("a", frame.a, np.broadcast_to(relaxed.acceleration, frame.a.shape)),
         ("v", frame.v, np.broadcast_to(relaxed.velocity, frame.v.shape)),
@@ -166,10 +166,16 @@ def _rows_of(program: LinearProgram, multipliers: Array) -> list[Event]:
     rows: list[Event] = []
     if y[0]:
         rows.append(["h", _hex(y[0] / relaxed.horizon)])
-    for k in np.flatnonzero(y[1 : frame.K + 1]).tolist():
+    for k in np.flatnonzero(y[1 : frame.L + 1]).tolist():
         by_unit = y[k + 1] / unit[k] ** 2 if frame.short[k] else y[k + 1] * unit[k]
-        rows.append(["S" if frame.short[k] else "s", int(relaxed.segments[k]), _hex(by_unit)])
-    of_sums = y[frame.K + 1 : program.n_fixed].tolist()
+        rows.append(["S" if frame.short[k] else "s", _leg(relaxed, k), _hex(by_unit)])
+    first = frame.L + 1
+    for k in range(frame.K, frame.L):
+        for sign, value in zip((1, -1), y[first : first + 2].tolist(), strict=True):
+            if value:
+                rows.append(["e", _leg(relaxed, k), sign, _hex(value / unit[k])])
+        first += 2
+    of_sums = y[first : program.n_fixed].tolist()
     for (waypoint, side), value in zip(frame.bounded_sums, of_sums, strict=True):
         if value:
             rows.append(["l" if side else "b", int(relaxed.waypoints[waypoint]), _hex(value)])
@@ -177,7 +183,7 @@ def _rows_of(program: LinearProgram, multipliers: Array) -> list[Event]:
     places = frame.place(cuts) * unit[cuts.segment]
     for i in np.flatnonzero(of_cuts).tolist():
         kind, k, j = Kind(int(cuts.kind[i])), int(cuts.segment[i]), int(cuts.joint[i])
-        segment, joint, sign = int(relaxed.segments[k]), int(relaxed.joints[j]), int(cuts.sign[i])
+        segment, joint, sign = _leg(relaxed, k), int(relaxed.joints[j]), int(cuts.sign[i])
         at, value = [_hex(x) for x in cuts.at[i]], float(of_cuts[i])
         short, times_T = bool(frame.short[k]), bool(frame.times_T[k, j])
         reach = value / (float(unit[k]) if times_T else 1.0)
@@ -196,13 +202,13 @@ def _rows_of(program: LinearProgram, multipliers: Array) -> list[Event]:
             by_both = _hex(value / (unit[k] ** 2 * float(relaxed.acceleration[j])))
             rows.append(["x", joint, segment, kind.end, int(cuts.at[i, 0]), by_both])
         elif kind in FADES:
-            waypoint = int(relaxed.waypoints[k + kind.end])
+            waypoint = int(relaxed.waypoints[relaxed.legs[k, kind.end]])
             rows.append(["V", joint, waypoint, sign, at[0], by_speed])
         elif kind in PRODUCTS:
             by_both = _hex(value / (unit[k] * float(relaxed.acceleration[j])))
             rows.append(["w", joint, segment, kind.end, int(cuts.at[i, 0]), by_both])
         elif kind in ZONES:
-            zone = float(relaxed.zones[k + kind.end, j])
+            zone = float(relaxed.zones[relaxed.legs[k, kind.end], j])
             rows.append(
                 ["m", joint, segment, kind.end, int(cuts.at[i, 0]), _hex(value * unit[k] / zone)]
             )
@@ -219,6 +225,11 @@ def _rows_of(program: LinearProgram, multipliers: Array) -> list[Event]:
             name = "d" if kind == Kind.CRUISE else "k"
             rows.append([name.upper() if times_T else name, joint, segment, sign, *at, of_reach])
     return rows
+
+
+def _leg(relaxed: RelaxedProblem, k: int) -> int | list[int]:
+    """The name of a leg: of a segment the number of its first waypoint, else the waypoints at both ends."""
+    return int(relaxed.segments[k]) if k < relaxed.K else relaxed.waypoints[relaxed.legs[k]].tolist()
 
 
 def _hex(x: float) -> str:

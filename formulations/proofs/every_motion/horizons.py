@@ -218,8 +218,9 @@ class HorizonSearch:
                 return _out_of_time(deadline), boxes
             if solution.status != LPStatus.OPTIMAL:
                 return Ending(BoundStatus.SOLVER_FAILED, _why(solution)), boxes
-            typical = solution.x[frame.T] * frame.typical
-            typical[frame.short] = np.maximum(typical[frame.short], _SHORTEST * horizon)
+            typical = (solution.x[frame.T] * frame.typical)[: relaxed.K]
+            short = frame.short[: relaxed.K]
+            typical[short] = np.maximum(typical[short], _SHORTEST * horizon)
             self.typical[relaxed.segments], self.cuts = typical, program.cuts
             if self.plain:
                 of_bound = {"bound": self.seconds, "gap": gap}
@@ -315,7 +316,8 @@ class HorizonSearch:
         self.rows = len(program.rows)
         if bound > self.bounds.get("relaxation", 0.0):
             self.durations = np.zeros(problem.n_segments)
-            self.durations[relaxed.segments] = solution.x[program.frame.T] * program.frame.typical
+            found = solution.x[program.frame.T] * program.frame.typical
+            self.durations[relaxed.segments] = found[: relaxed.K]
             self.savings = np.zeros((3, problem.n_segments, problem.dof))
             self.savings[:, relaxed.segments[:, None], relaxed.joints] = price_limits(
                 self.demands, program, solution

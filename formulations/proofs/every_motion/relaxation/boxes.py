@@ -7,7 +7,7 @@ from dataclasses import dataclass, replace
 import numpy as np
 
 from formulations.problem.arrays import Array
-from formulations.proofs.every_motion.relaxation.relaxed_problem import RelaxedProblem
+from formulations.proofs.every_motion.relaxation.relaxed_problem import DOWN, RelaxedProblem, down
 
 
 @dataclass(frozen=True)
@@ -42,14 +42,17 @@ class Boxes:
         ----------
         relaxed : RelaxedProblem
         least, most : Array, shape (K,) [s]
+            Of the segments.
 
         Returns
         -------
         Boxes
             Marked empty where a least duration is above the greatest.
         """
+        own = np.stack([np.maximum(relaxed.least, DOWN * relaxed.at_top_speed), relaxed.most], axis=1)
+        durations = np.stack([least, most], axis=1)
         return Boxes(
-            np.stack([least, most], axis=1),
+            np.concatenate([durations, own[relaxed.K :]]),
             joined_ends(relaxed, relaxed.a_boxes),
             joined_ends(relaxed, relaxed.zones[..., None] * (-1.0, 1.0)),
             joined_ends(relaxed, relaxed.v_boxes),
@@ -61,6 +64,32 @@ class Boxes:
         """Sum over the segments of the relative width of the duration's interval."""
         low, high = self.durations.T
         return float((high / np.where(low > 0.0, low, high) - 1.0).sum())
+
+
+def with_legs(relaxed: RelaxedProblem, boxes: Boxes) -> Boxes:
+    """Intersect the durations of legs over several segments with what the segments leave them.
+
+    Parameters
+    ----------
+    relaxed : RelaxedProblem
+    boxes : Boxes
+
+    Returns
+    -------
+    Boxes
+        Empty where an interval is.
+    """
+    if len(relaxed.legs) == relaxed.K:
+        return boxes
+    durations, K = boxes.durations.copy(), relaxed.K
+    up = 2.0 - down(K + 1)
+    low, high = (relaxed.over_legs(durations[:K, side]) for side in (0, 1))
+    others = (durations[:K, 0].sum() - low) * down(K + 1) - (1.0 - down(K + 1)) * low
+    high = np.minimum(high * up, (relaxed.horizon - np.maximum(others, 0.0)) * up)
+    durations[K:, 0] = np.maximum(durations[K:, 0], low[K:] * down(K + 1))
+    durations[K:, 1] = np.minimum(durations[K:, 1], high[K:])
+    empty = boxes.empty or bool((durations[:, 0] > durations[:, 1]).any())
+    return replace(boxes, durations=durations, empty=empty)
 
 
 def joined_ends(relaxed: RelaxedProblem, intervals: Array) -> Array:

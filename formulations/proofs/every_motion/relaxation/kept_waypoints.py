@@ -41,18 +41,21 @@ def kept_waypoints(demands: Demands, without: frozenset[int] = frozenset()) -> I
     return np.array([*kept, last], dtype=np.intp)
 
 
-def gaps(boxes: Array) -> Array:
-    """Compute the least distance between consecutive zones, backwards and forwards.
+def gaps(boxes: Array, legs: Indices) -> Array:
+    """Compute the least distance between the zones at both ends of legs, backwards and forwards.
 
     Parameters
     ----------
     boxes : Array, shape (K + 1, n, 2) [rad]
         Least and greatest position.
+    legs : Indices, shape (L, 2)
+        Waypoints at their ends.
 
     Returns
     -------
-    Array, shape (K, n, 2) [rad]
+    Array, shape (L, n, 2) [rad]
         0 where a joint need not move in that direction; each rounded once.
     """
-    low, high = boxes[..., 0], boxes[..., 1]
-    return np.maximum(np.stack([low[:-1] - high[1:], low[1:] - high[:-1]], axis=-1), 0.0)
+    start, end = boxes[legs[:, 0]], boxes[legs[:, 1]]
+    apart = [start[..., 0] - end[..., 1], end[..., 0] - start[..., 1]]
+    return np.maximum(np.stack(apart, axis=-1), 0.0)

@@ -4,7 +4,6 @@ from __future__ import annotations
 
 from collections.abc import Callable
 from dataclasses import dataclass
-from itertools import pairwise
 
 import numpy as np
 
@@ -15,6 +14,7 @@ from formulations.proofs.every_motion.relaxation.implied_limits import implied_l
 from formulations.proofs.every_motion.relaxation.kept_waypoints import gaps, kept_waypoints
 
 UP, DOWN = 1.0 + 2.0**-50, 1.0 - 2.0**-50  # cover the rounding of two operations
+_OVER = 4  # segments at most in a leg
 _WIDER = (
     1.001  # position slack that is proved, per slack allowed: covers rounding, and checkers ask for it
 )
@@ -66,6 +66,9 @@ class RelaxedProblem:
         Which joints have a velocity limit only; they are here where a waypoint is a zone.
     plain : bool
         Whether the problem has no conditions; each segment takes time then.
+    legs : Indices, shape (L, 2)
+        The waypoints, of those kept, between which rows are posed: the K segments come first, then legs over
+        several segments. All arrays of shape (K, ...) above have L lines.
     segments : Indices, shape (K,)
         The problem's number of the waypoint where each segment starts.
     joints : Indices, shape (n,)
@@ -95,6 +98,7 @@ class RelaxedProblem:
     fades: tuple[bool, bool]
     by_speed_alone: Truths
     plain: bool
+    legs: Indices
     segments: Indices
     joints: Indices
     end: int
@@ -142,19 +146,20 @@ class RelaxedProblem:
         RelaxedProblem
         """
         kept, joints = kept_waypoints(demands, without), _joints_in_rows(demands)
-        between = _Between(kept)
+        legs = _legs(demands, kept)
+        between = _Between(kept[legs])
         box = demands.waypoints[kept][:, joints]
         middles = box.mean(axis=-1)
         apart = np.maximum(box[..., 1] - middles, middles - box[..., 0])
         slack = demands.problem.position_slack * _WIDER if slack is None else slack
         bounds = between.hull(demands.position[:, joints])
-        K = len(bounds)
-        room = [(bounds - middles[e : K + e, :, None]) * (-1.0, 1.0) for e in (0, 1)]
+        room = [(bounds - middles[legs[:, e], :, None]) * (-1.0, 1.0) for e in (0, 1)]
         waits = float(demands.waits[kept].sum()) * down(len(kept))
-        asked = np.maximum(between.least(demands), _by_velocity_alone(demands, kept))
+        asked = np.maximum(between.least(demands), _by_velocity_alone(demands, kept[legs]))
         speeds = np.abs(between.hull(demands.velocity[:, joints]))
-        by_speed = DOWN * (gaps(box) / speeds).max(axis=(1, 2), initial=0.0)
-        shortest = float(np.maximum(asked, by_speed).sum() + waits) * down(len(kept) + 1)
+        by_speed = DOWN * (gaps(box, legs) / speeds).max(axis=(1, 2), initial=0.0)
+        K = len(kept) - 1
+        shortest = float(np.maximum(asked, by_speed)[:K].sum() + waits) * down(len(kept) + 1)
         top, steepest = implied_limits(demands, joints, horizon, shortest)
         velocities = np.minimum(speeds, top[:, None])
         accelerations = np.minimum(
@@ -167,8 +172,8 @@ class RelaxedProblem:
         return RelaxedProblem(
             least=asked,
             most=between.most(demands),
-            gaps=gaps(box),
-            displacements=np.diff(middles, axis=0),
+            gaps=gaps(box, legs),
+            displacements=middles[legs[:, 1]] - middles[legs[:, 0]],
             zones=np.where(box[..., 0] < box[..., 1], UP * apart, 0.0),
             room=np.maximum(np.stack(room, axis=1), 0.0) + slack,
             velocity=velocities.max(axis=(0, 2), initial=0.0),
@@ -177,12 +182,12 @@ class RelaxedProblem:
             velocities=velocities,
             accelerations=accelerations,
             jerks=jerks,
-            v_boxes=_at_waypoints(demands, kept, joints, velocities, demands.end_velocity),
+            v_boxes=_at_waypoints(demands, kept, joints, velocities[:K], demands.end_velocity),
             a_boxes=_at_waypoints(
                 demands,
                 kept,
                 joints,
-                accelerations * (jerks > 0.0)[..., None],
+                (accelerations * (jerks > 0.0)[..., None])[:K],
                 demands.end_acceleration,
             ),
             horizon=UP * (horizon - waits) if waits else horizon,
@@ -192,6 +197,7 @@ class RelaxedProblem:
             fades=_fades(demands),
             by_speed_alone=~_limited(demands)[joints],
             plain=demands.plain,
+            legs=legs,
             segments=kept[:-1],
             joints=joints,
             end=int(kept[-1]) if len(kept) else 0,
@@ -212,12 +218,22 @@ class RelaxedProblem:
         """The problem's number of each waypoint kept, (K + 1,)."""
         return np.append(self.segments, self.end)
 
+    @property
+    def K(self) -> int:
+        """Number of segments between waypoints that are kept."""
+        return len(self.segments)
+
+    def over_legs(self, values: Array) -> Array:
+        """Add values (K,) of the segments up for each leg, (L,)."""
+        sums = [values[i:k].sum() for i, k in self.legs[self.K :].tolist()]
+        return np.concatenate([values, sums]) if sums else values
+
 
 class _Between:
     """Values of the problem's segments between two waypoints that are kept."""
 
-    def __init__(self, kept: Indices) -> None:
-        self.parts = [slice(i, k) for i, k in pairwise(kept.tolist())]
+    def __init__(self, legs: Indices) -> None:
+        self.parts = [slice(i, k) for i, k in legs.tolist()]
 
     def _each(self, of: Callable[[slice], Array], shape: tuple[int, ...]) -> Array:
         return np.array([of(part) for part in self.parts]).reshape(len(self.parts), *shape)
@@ -280,11 +296,28 @@ def _joints_in_rows(demands: Demands) -> Indices:
     return np.flatnonzero(moves & (_limited(demands) | zones))
 
 
-def _by_velocity_alone(demands: Demands, kept: Indices) -> Array:
-    """Least time of the joints with a velocity limit only, (K,) [s]."""
+def _by_velocity_alone(demands: Demands, legs: Indices) -> Array:
+    """Least time of the joints with a velocity limit only, (L,) [s]."""
     others = np.flatnonzero(~_limited(demands))
-    speeds = np.abs(_Between(kept).hull(demands.velocity[:, others]))
-    return DOWN * (gaps(demands.waypoints[kept][:, others]) / speeds).max(axis=(1, 2), initial=0.0)
+    speeds = np.abs(_Between(legs).hull(demands.velocity[:, others]))
+    return DOWN * (gaps(demands.waypoints[:, others], legs) / speeds).max(axis=(1, 2), initial=0.0)
+
+
+def _legs(demands: Demands, kept: Indices) -> Indices:
+    """The legs, (L, 2), as places in ``kept``: all segments, and legs over zones without a wait."""
+    first = np.arange(max(len(kept) - 1, 0))
+    legs = np.stack([first, first + 1], axis=1)
+    if demands.plain:
+        return legs
+    box = demands.waypoints[kept]
+    zone = (box[..., 0] < box[..., 1]).any(axis=1) & (demands.waits[kept] == 0.0)
+    over = [
+        (i, k)
+        for i in first.tolist()
+        for k in range(i + 2, min(len(kept), i + _OVER + 1))
+        if zone[i + 1 : k].all()
+    ]
+    return np.concatenate([legs, np.array(over, dtype=np.intp).reshape(-1, 2)])
 
 
 def _at_waypoints(

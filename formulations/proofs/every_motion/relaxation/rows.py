@@ -67,9 +67,10 @@ class Frame(Columns):
 
     def fixed(self) -> Rows:
         """Rows (5) and (6); the bounds of the sums before waypoints come last."""
-        low, high, one = self.low, self.high, np.ones(self.K)
-        share = list(self.typical[:, None] / self.relaxed.horizon)
-        total = self._rows([np.array([column]) for column in self.T], share, np.ones(1))
+        low, high, one = self.low, self.high, np.ones(self.L)
+        T, typical = self.T[: self.K], self.typical[: self.K]
+        share = list(typical[:, None] / self.relaxed.horizon)
+        total = self._rows([np.array([column]) for column in T], share, np.ones(1))
         columns = [self.inverse, self.T]
         with np.errstate(divide="ignore", invalid="ignore"):
             a, upper = [one, 1.0 / (low * high)], 1.0 / low + 1.0 / high
@@ -79,11 +80,17 @@ class Frame(Columns):
             upper = np.where(self.short, -low * high, upper)
         secants = self._rows(columns, a, upper).normal()
         blocks = [total.rows(self.size), secants.rows(self.size)]
+        for leg in range(self.K, self.L):  # the time of a leg is the sum of its segments'
+            i, k = self.relaxed.legs[leg]
+            columns = [np.array([c]) for c in (self.T[leg], *T[i:k])]
+            terms = np.concatenate([self.typical[[leg]], -typical[i:k]])[:, None] / self.typical[leg]
+            for sign in (1.0, -1.0):
+                blocks.append(self._rows(columns, list(sign * terms), np.zeros(1)).rows(self.size))
         for i, side in self.bounded_sums:
             bound = float(self.relaxed.arrivals[i, side])
             sign = 1.0 if side else -1.0
-            terms = list(sign * self.typical[:i, None])
-            row = self._rows([np.array([c]) for c in self.T[:i]], terms, np.array([sign * bound]))
+            terms = list(sign * typical[:i, None])
+            row = self._rows([np.array([c]) for c in T[:i]], terms, np.array([sign * bound]))
             blocks.append(row.rows(self.size))
         return Rows.joined(blocks)
 
@@ -191,22 +198,24 @@ class Frame(Columns):
 
     def _product(self, end: int, cuts: Cuts) -> Terms:
         k, j = cuts.segment, cuts.joint
+        at = self.relaxed.legs[k, end]
         t, e, side = self.corner(cuts, end)
-        columns = [self.W[k, j, end], self.a[k + end, j], self.T[k]]
+        columns = [self.W[k, j, end], self.a[at, j], self.T[k]]
         return self._rows(columns, [-side, side * t, side * e], side * t * e)
 
     def _product_times_T(self, kind: Kind, cuts: Cuts) -> Terms:
         """Products (9) of T and v, or of T^2 and a, in short segments."""
         k, j, corner, end = cuts.segment, cuts.joint, cuts.at[:, 0], kind.end
+        at = self.relaxed.legs[k, end]
         upper, low_T = (corner == 1) | (corner == 2), corner % 2 == 0
         if kind in SPEED_PRODUCTS:
             t = np.where(low_T, self.low[k], self.high[k])
-            f = np.where(upper, self.v_high[k + end, j], self.v_low[k + end, j])
-            columns = [self.g[k, j, end], self.v[k + end, j], self.T[k]]
+            f = np.where(upper, self.v_high[at, j], self.v_low[at, j])
+            columns = [self.g[k, j, end], self.v[at, j], self.T[k]]
         else:
             t = np.where(low_T, self.low[k] ** 2 * DOWN, self.high[k] ** 2 * UP)
-            f = np.where(upper, self.a_high[k + end, j], self.a_low[k + end, j])
-            columns = [self.X[k, j, end], self.a[k + end, j], self.square[k]]
+            f = np.where(upper, self.a_high[at, j], self.a_low[at, j])
+            columns = [self.X[k, j, end], self.a[at, j], self.square[k]]
         side = np.where(corner < 2, 1.0, -1.0)
         # a segment that is not short any more has no such product
         bound = np.where(self.short[k], side * t * f, np.inf)
@@ -216,37 +225,41 @@ class Frame(Columns):
         k, j, sign = cuts.segment, cuts.joint, cuts.sign
         _require(self.relaxed.has_jerk[j])
         per_T = self.bend[k, j] / self.ramp[k, j]
-        columns = [self.a[k + 1, j], self.a[k, j], self.T[k]]
+        start, end = self.relaxed.legs[k].T
+        columns = [self.a[end, j], self.a[start, j], self.T[k]]
         return self._rows(columns, [sign, -sign, -per_T], np.zeros(len(k)))
 
     def _fade(self, end: int, cuts: Cuts) -> Terms:
         """Tangents of (10) at an acceleration."""
         k, j, sign = cuts.segment, cuts.joint, cuts.sign
         _require(self.relaxed.has_jerk[j])
-        f = cuts.at[:, 0] / self.relaxed.acceleration[j]
+        f, at = cuts.at[:, 0] / self.relaxed.acceleration[j], self.relaxed.legs[k, end]
         top, bend, sound = self.peak(end, cuts)
         share = self.ramp[k, j] ** 2 / bend
-        columns = [self.v[k + end, j], self.a[k + end, j]]
+        columns = [self.v[at, j], self.a[at, j]]
         upper = np.where(sound, top + 0.5 * share * f**2, np.inf)
         return self._rows(columns, [sign, sign * share * f], upper)
 
     def _zone(self, end: int, cuts: Cuts) -> Terms:
         k, j, corner = cuts.segment, cuts.joint, cuts.at[:, 0]
-        u = np.where(corner % 2 == 0, 1.0 / self.high[k] * DOWN, 1.0 / self.low[k] * UP)
+        at = self.relaxed.legs[k, end]
+        with np.errstate(divide="ignore"):  # no such row where a segment has become short
+            u = np.where(corner % 2 == 0, 1.0 / self.high[k] * DOWN, 1.0 / self.low[k] * UP)
         upper = (corner == 1) | (corner == 2)
-        f = np.where(upper, self.e_high[k + end, j], self.e_low[k + end, j])
+        f = np.where(upper, self.e_high[at, j], self.e_low[at, j])
         side = np.where(corner < 2, 1.0, -1.0)
-        columns = [self.p[k, j, end], self.e[k + end, j], self.inverse[k]]
+        columns = [self.p[k, j, end], self.e[at, j], self.inverse[k]]
         bound = np.where(self.short[k], np.inf, side * u * f)
         return self._rows(columns, [-side, side * u, side * f], bound)
 
     def _peak(self, end: int, cuts: Cuts) -> Terms:
         k, j, sign = cuts.segment, cuts.joint, cuts.sign
         _require(self.relaxed.has_jerk[j])
+        at = self.relaxed.legs[k, end]
         c = cuts.at[:, 0] * self.typical[k] / self.relaxed.acceleration[j]
         top, bend, sound = self.peak(end, cuts)
         share = self.ramp[k, j] ** 2 / bend
-        columns = [self.v[k + end, j], self.W[k, j, end], self.square[k]]
+        columns = [self.v[at, j], self.W[k, j, end], self.square[k]]
         # LinearProgram leaves infinite rows out
         upper = np.where(sound & ~self.short[k], top, np.inf)
         return self._rows(columns, [sign, share * c, -0.5 * share * c**2], upper)
@@ -269,7 +282,7 @@ class Frame(Columns):
         sound : Truths, shape (m,)
             Whether there is certainly the time.
         """
-        i, j = cuts.segment + end, cuts.joint
+        i, j = self.relaxed.legs[cuts.segment, end], cuts.joint
         forwards, after = _forwards(cuts.sign), cuts.sign * cuts.at[:, 0] > 0.0
         k = np.where(after, i, i - 1)  # the segment on that side
         there = (k >= 0) & (k < self.K)
@@ -302,7 +315,8 @@ class Frame(Columns):
         c_W0, c_W1, c_A, c_J = speed_coefficients(cuts.at[:, :2])
         _require(self.relaxed.has_jerk[j] | (c_J == 0.0))
         ramp, bend = self.ramp[k, j], self.bend[k, j]
-        columns = [self.v[k + 1, j], self.v[k, j], self.W[k, j, 0], self.W[k, j, 1]]
+        start, end = self.relaxed.legs[k].T
+        columns = [self.v[end, j], self.v[start, j], self.W[k, j, 0], self.W[k, j, 1]]
         a = [sign, -sign, -sign * c_W0 * ramp, -sign * c_W1 * ramp]
         a += [-c_A * self.ramps[k, j, _forwards(sign)], -c_J * bend]
         return self._rows([*columns, self.T[k], self.square[k]], a, np.zeros(len(k)))
@@ -341,9 +355,10 @@ class Frame(Columns):
             In units of ``typical`` and of the acceleration limits.
         """
         k, j, corner = cuts.segment, cuts.joint, cuts.at[:, 0]
+        at = self.relaxed.legs[k, end]
         t = np.where(corner % 2 == 0, self.low[k], self.high[k])
         upper = (corner == 1) | (corner == 2)
-        e = np.where(upper, self.a_high[k + end, j], self.a_low[k + end, j])
+        e = np.where(upper, self.a_high[at, j], self.a_low[at, j])
         return t, e, np.where(corner < 2, 1.0, -1.0)
 
     def _rows(self, columns: list[Indices], coefficients: list[Array], upper: Array) -> Terms:

@@ -63,7 +63,7 @@ def _durations(frame: Frame, x: Array) -> Iterator[Proposal]:
     T, h = x[frame.T], frame.high
     inverse = np.where(frame.short, T / np.maximum(x[frame.square], 1e-300), x[frame.inverse])
     t = (h - T) / np.maximum(h * inverse - 1.0, 1e-300)
-    k = np.arange(frame.K)
+    k = np.arange(frame.L)
     for kind, at in ((Kind.TANGENT, T), (Kind.HULL, np.clip(t, frame.low, h))):
         yield kind, Cuts.of(kind, k, at * frame.typical)
 
@@ -72,7 +72,7 @@ def _products(frame: Frame) -> Iterator[Proposal]:
     """Rows (9) in all four corners, except where the acceleration is fixed at 0."""
     moves = (frame.a_low != 0.0) | (frame.a_high != 0.0)
     for kind in PRODUCTS:
-        k, j = np.nonzero(moves[kind.end : frame.K + kind.end])
+        k, j = np.nonzero(moves[frame.relaxed.legs[:, kind.end]])
         yield kind, _corners(kind, k, j)
 
 
@@ -92,7 +92,7 @@ def _products_times_T(frame: Frame) -> Iterator[Proposal]:
     ):
         moves = (low != 0.0) | (high != 0.0)
         for kind in kinds:
-            k, j = np.nonzero(with_states & moves[kind.end : frame.K + kind.end])
+            k, j = np.nonzero(with_states & moves[frame.relaxed.legs[:, kind.end]])
             yield kind, _corners(kind, k, j)
 
 
@@ -100,8 +100,9 @@ def _fades(frame: Frame, x: Array) -> Iterator[Proposal]:
     """Rows (10) at the acceleration of the point, at both ends of short segments."""
     for kind in FADES:
         k, j = np.nonzero(frame.short[:, None] & frame.relaxed.has_jerk)
-        at = x[frame.a[k + kind.end, j]] * frame.relaxed.acceleration[j]
-        yield kind, Cuts.of(kind, k, at, j, np.sign(x[frame.v[k + kind.end, j]]))
+        i = frame.relaxed.legs[k, kind.end]
+        at = x[frame.a[i, j]] * frame.relaxed.acceleration[j]
+        yield kind, Cuts.of(kind, k, at, j, np.sign(x[frame.v[i, j]]))
     sign = np.repeat((1.0, -1.0), len(k))
     k, j = np.tile(k, 2), np.tile(j, 2)
     yield Kind.CHANGE, Cuts.of(Kind.CHANGE, k, 0.0 * sign, j, sign)
@@ -117,7 +118,8 @@ def _peaks(frame: Frame, x: Array) -> Iterator[Proposal]:
         k, j = np.nonzero(~frame.short[:, None] & frame.relaxed.has_jerk)
         unit = frame.relaxed.acceleration[j] / frame.typical[k]
         at = x[frame.W[k, j, kind.end]] / x[frame.square[k]] * unit
-        yield kind, Cuts.of(kind, k, at, j, np.sign(x[frame.v[k + kind.end, j]]))
+        speeds = x[frame.v[frame.relaxed.legs[k, kind.end], j]]
+        yield kind, Cuts.of(kind, k, at, j, np.sign(speeds))
 
 
 def _reach(frame: Frame, x: Array) -> Iterator[Proposal]:
@@ -126,7 +128,7 @@ def _reach(frame: Frame, x: Array) -> Iterator[Proposal]:
     yield from _at_top_speed(frame)
     T, square, v, W = _states(frame, x)
     for limited in (True, False):
-        k, j = _grid(frame.K, np.flatnonzero((has_jerk == limited) & ~alone))
+        k, j = _grid(frame.L, np.flatnonzero((has_jerk == limited) & ~alone))
         if not len(k):
             continue
         k, j, sign = np.tile(k, 2), np.tile(j, 2), np.repeat((1.0, -1.0), len(k))
@@ -165,6 +167,11 @@ def _at_top_speed(frame: Frame) -> Iterator[Proposal]:
     k, j, sign = np.tile(k, 2), np.tile(j, 2), np.repeat((1.0, -1.0), len(k))
     at = np.tile([0.0, 0.0, 0.0, 1.0, 1.0, 1.0], (len(k), 1))
     yield Kind.CRUISE, Cuts.of(Kind.CRUISE, k, at, j, sign)
+    # from the state at one end alone (Taylor's formula): the ends of a point need not fit together
+    which = frame.relaxed.has_jerk[j]
+    k, j, sign = k[which], j[which], sign[which]
+    for switch in (0.0, 1.0):
+        yield Kind.DISTANCE, Cuts.of(Kind.DISTANCE, k, np.full((len(k), 6), switch), j, sign)
 
 
 def _stops(frame: Frame, x: Array) -> Iterator[Proposal]:

@@ -75,7 +75,7 @@ def tighten(
     cuts : Cuts
         Of the last program.
     """
-    wanted = [("durations", k, 0) for k in range(program.frame.K)]
+    wanted = [("durations", k, 0) for k in _durations_of(program, solution)]
     for name, kinds in (
         ("accelerations", (*PRODUCTS, *SQUARE_PRODUCTS)),
         ("offsets", ZONES),
@@ -112,6 +112,13 @@ def tighten(
     return program.frame.boxes, program.cuts
 
 
+def _durations_of(program: LinearProgram, solution: LPSolution) -> list[int]:
+    """All segments, and those legs over several whose rows have a multiplier."""
+    y = solution.multipliers[program.n_fixed :]
+    used = program.cuts.segment[y > 1e-9 * np.abs(y).max(initial=0.0)]
+    return [*range(program.frame.K), *np.unique(used[used >= program.frame.K]).tolist()]
+
+
 def _column(frame: Frame, name: str, k: int, j: int) -> tuple[int, float]:
     """The column of a variable and its unit."""
     if name == "durations":
@@ -132,7 +139,7 @@ def _with_multiplier(
     found = set()
     for kind in kinds:
         carries = (cuts.kind == kind) & (y > 1e-9 * np.abs(y).max(initial=0.0))
-        waypoints = cuts.segment[carries] + kind.end
+        waypoints = program.frame.relaxed.legs[cuts.segment[carries], kind.end]
         if program.frame.relaxed.cyclic:
             waypoints = waypoints % last
         found |= set(zip(waypoints.tolist(), cuts.joint[carries].tolist(), strict=True))
