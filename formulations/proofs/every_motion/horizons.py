@@ -24,6 +24,7 @@ from formulations.proofs.every_motion.events import bound_with_events
 from formulations.proofs.every_motion.prices import price_limits
 from formulations.proofs.every_motion.relaxation.boxes import Boxes
 from formulations.proofs.every_motion.relaxation.cuts import Cuts
+from formulations.proofs.every_motion.relaxation.kept_waypoints import idle_waypoints
 from formulations.proofs.every_motion.relaxation.linear_program import (
     LinearProgram,
     LPSolution,
@@ -87,7 +88,7 @@ class HorizonSearch:
         """
         self.demands, self.progress = demands, progress
         self.problem = problem = demands.problem
-        self.without: frozenset[int] = frozenset()
+        self.without = self.idle = idle_waypoints(demands)
         self.plain = demands.plain
         self.bounds, self.typical, self.slowest = first_bounds(demands)
         self.cuts = Cuts.none()
@@ -180,6 +181,8 @@ class HorizonSearch:
             ending, boxes = self._within(horizon, boxes, gap, deadline)
             if ending is not None:
                 return ending
+            if not self.seconds > 0.0:
+                return Ending(BoundStatus.SIMPLE, "nothing forces it to take time")
             if horizon > self.seconds * (1.0 + _FAR):
                 ahead = _AHEAD
                 continue

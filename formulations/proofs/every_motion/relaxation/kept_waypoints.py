@@ -33,12 +33,53 @@ def kept_waypoints(demands: Demands, without: frozenset[int] = frozenset()) -> I
     if demands.plain:
         moving = np.flatnonzero((demands.problem.displacements != 0.0).any(axis=1))
         return np.append(moving, moving[-1:] + 1)
-    last = len(demands.waits) - 1
-    kept = [0]
-    for i in range(1, last):
-        if i not in without:
-            kept.append(i)
-    return np.array([*kept, last], dtype=np.intp)
+    return np.array([i for i in range(len(demands.waits)) if i not in without], dtype=np.intp)
+
+
+def idle_waypoints(demands: Demands) -> frozenset[int]:
+    """Find inner waypoints that ask for nothing: a motion may be there when it is at a neighbour.
+
+    Their box holds that of the waypoint before or after them, nothing forces time in between, and the limits
+    before and after them are the same.
+
+    Parameters
+    ----------
+    demands : Demands
+
+    Returns
+    -------
+    frozenset of int
+        Without these the fastest motion takes as long. None for a plain problem.
+    """
+    if demands.plain:
+        return frozenset()
+    found: set[int] = set()
+    for ahead in (-1, 1):
+        inner = range(1, len(demands.waits) - 1)
+        for i in inner if ahead < 0 else reversed(inner):
+            beside = i + ahead
+            while beside in found:
+                beside += ahead
+            if i not in found and _idle(demands, i, beside):
+                found.add(i)
+    return frozenset(found)
+
+
+def _idle(demands: Demands, i: int, beside: int) -> bool:
+    between = slice(min(i, beside), max(i, beside))
+    around = slice(min(i - 1, beside), max(i, beside - 1) + 1)  # segments before, between and after
+    limits = (demands.velocity, demands.acceleration, demands.jerk, demands.position)
+    mine, other = demands.waypoints[i], demands.waypoints[beside]
+    return bool(
+        (mine[:, 0] <= other[:, 0]).all()
+        and (other[:, 1] <= mine[:, 1]).all()
+        and not demands.stops[i]
+        and not demands.durations[between, 0].any()
+        and np.isinf(demands.durations[around, 1]).all()
+        and demands.passages[i, 0] <= 0.0
+        and np.isinf(demands.passages[i, 1])
+        and all((of[around] == of[i]).all() for of in limits)
+    )
 
 
 def gaps(boxes: Array, legs: Indices) -> Array:

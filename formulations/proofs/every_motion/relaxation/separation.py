@@ -141,6 +141,10 @@ def _reach(frame: Frame, x: Array) -> Iterator[Proposal]:
         top = frame.top[k, j, forwards]
         if limited:
             six, cruises = farthest(v0, W0, v1, W1, top, A, J, down=B)
+            if frame.short.any():  # (2) is never taken times T
+                W0, W1 = (sign * ramp * x[frame.W[k, j, end]] for end in (0, 1))
+                A = np.maximum(frame.ramps[k, j, forwards] * x[frame.T[k]], np.maximum(W0, W1))
+                J = frame.bend[k, j] * x[frame.square[k]]
             two = fastest(W0, W1, A, J)
         else:
             six, cruises = farthest_without_jerk(v0, v1, top, A, down=B)
@@ -152,13 +156,15 @@ def _reach(frame: Frame, x: Array) -> Iterator[Proposal]:
 
 def _states(frame: Frame, x: Array) -> tuple[Array, Array, Array, Array]:
     """T, T^2, v and W at both ends as the rows of reach have them: those times T, divided by T."""
-    found = [x[frame.of_T], x[frame.of_square], x[frame.of_v], x[frame.of_W]]
-    short = frame.short & (x[frame.T] > _NO_TIME)
-    if short.any():
-        for values in found:
-            by = x[frame.T[short]]
-            values[short] /= by.reshape(len(by), *(1,) * (values.ndim - 1))
-    return found[0], found[1], found[2], found[3]
+    T, square, v, W = x[frame.of_T], x[frame.of_square], x[frame.of_v], x[frame.of_W]
+    if frame.short.any():
+        by = x[frame.T]
+        moves, still = frame.short & (by > _NO_TIME), frame.short & (by <= _NO_TIME)
+        for values in (T, square, v, W):
+            values[moves] /= by[moves].reshape(-1, *(1,) * (values.ndim - 1))
+        T[still], square[still], W[still] = _NO_TIME, _NO_TIME**2, 0.0
+        v[still] = np.moveaxis(x[frame.v][frame.relaxed.legs[still]], 1, -1)
+    return T, square, v, W
 
 
 def _at_top_speed(frame: Frame) -> Iterator[Proposal]:
