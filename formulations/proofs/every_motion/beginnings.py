@@ -78,11 +78,11 @@ def first_boxes(demands: Demands, relaxed: RelaxedProblem, boxes: Boxes | None) 
         least = relaxed.at_top_speed
         if demands.plain:
             least = np.maximum(least_durations(demands.problem)[relaxed.segments], least)
-        least = np.maximum(least * (1.0 - _LOOSER), relaxed.least)[: relaxed.K]
-        boxes = Boxes.around(relaxed, least, relaxed.most[: relaxed.K])
+        least = np.maximum(least * (1.0 - _LOOSER), relaxed.least)[: relaxed.n_segments]
+        boxes = Boxes.around(relaxed, least, relaxed.most[: relaxed.n_segments])
     durations = boxes.durations.copy()
     # no duration is longer than what the least durations of the others leave
-    segments = durations[: relaxed.K]
+    segments = durations[: relaxed.n_segments]
     others = segments[:, 0].sum() - segments[:, 0]
     segments[:, 1] = np.minimum(segments[:, 1], relaxed.horizon * (1.0 + 1e-12) - others)
     empty = bool((durations[:, 0] > durations[:, 1]).any())

@@ -12,14 +12,17 @@ units:
     ["a", joint, segment, sign, s1, s2, y]            (2)      ["r", joint, segment, end, sign, s1, s2, y]  (3)
     ["b", waypoint, y] earliest, ["l", waypoint, y] latest (5)    ["m", joint, segment, end, corner, y] (11)
 
-Times T, for segments that may be short:
+Where segments may take no time, ["S", ...], ["T", ...], ["C", ...], ["D", ...], ["K", ...] and ["R", ...] are
+the rows of the small letters times T, and these are posed besides:
 
-    ["S", segment, y]  ["T", segment, t, y]  ["C", segment, t, y]  ["D", ...]  ["K", ...]  ["R", ...]
-    ["g", joint, segment, end, corner, y], ["x", ...]  products T v and T^2 a (9)
-    ["V", joint, waypoint, sign, a, y]  tangent of (10) at an acceleration
+    ["g", joint, segment, end, corner, y], ["x", ...]  products T v and T^2 a, as "w"       (9)
+    ["V", joint, waypoint, sign, a, y]  at an acceleration (10)    ["j", joint, segment, sign, y]  (12)
+    ["e", segment, sign, y]  the time of a leg over several segments is that of the segments
 
-Events: ["N", "T", segment, side, rows] or ["N", "a", "v" or "x", waypoint, joint, side, rows] narrows a box (of a
-duration, an acceleration, a velocity, or a position in a zone, from the middle of the zone) from
+In place of a segment stands the pair of waypoints at the ends of a leg over several segments.
+
+Events: ["N", "T", segment, side, rows] or ["N", "a", "v" or "x", waypoint, joint, side, rows] narrows a box
+(of a duration, an acceleration, a velocity, or a position in a zone, from the middle of the zone) from
 below (side 0) or from above (side 1), with effect after the next ["P"], which also narrows the
 accelerations by (13), or ["R"], which does not. ["F", rows] ends with the bound, ["E", rows] with the
 proof that no motion is left, as does an event that leaves a box empty. Segments and joints have the
@@ -37,8 +40,8 @@ from formulations.deadlines import Deadline
 from formulations.problem.arrays import Array
 from formulations.proofs.every_motion.relaxation.boxes import Boxes
 from formulations.proofs.every_motion.relaxation.cuts import (
-    PEAKS,
     FADES,
+    PEAKS,
     PRODUCTS,
     SPEED_PRODUCTS,
     SQUARE_PRODUCTS,
@@ -136,8 +139,8 @@ class _Events:
 
 def _first_boxes(relaxed: RelaxedProblem) -> Boxes:
     """From displacement over top speed, from what the others leave, and from the limits."""
-    least = np.maximum(DOWN * relaxed.at_top_speed, relaxed.least)[: relaxed.K]
-    most = np.minimum(relaxed.most[: relaxed.K], relaxed.horizon * UP - (least.sum() - least))
+    least = np.maximum(DOWN * relaxed.at_top_speed, relaxed.least)[: relaxed.n_segments]
+    most = np.minimum(relaxed.most[: relaxed.n_segments], relaxed.horizon * UP - (least.sum() - least))
     return Boxes.around(relaxed, least, most)
 
 
@@ -229,7 +232,11 @@ def _rows_of(program: LinearProgram, multipliers: Array) -> list[Event]:
 
 def _leg(relaxed: RelaxedProblem, k: int) -> int | list[int]:
     """The name of a leg: of a segment the number of its first waypoint, else the waypoints at both ends."""
-    return int(relaxed.segments[k]) if k < relaxed.K else relaxed.waypoints[relaxed.legs[k]].tolist()
+    return (
+        int(relaxed.segments[k])
+        if k < relaxed.n_segments
+        else relaxed.waypoints[relaxed.legs[k]].tolist()
+    )
 
 
 def _hex(x: float) -> str:

@@ -221,8 +221,8 @@ class HorizonSearch:
                 return _out_of_time(deadline), boxes
             if solution.status != LPStatus.OPTIMAL:
                 return Ending(BoundStatus.SOLVER_FAILED, _why(solution)), boxes
-            typical = (solution.x[frame.T] * frame.typical)[: relaxed.K]
-            short = frame.short[: relaxed.K]
+            typical = (solution.x[frame.T] * frame.typical)[: relaxed.n_segments]
+            short = frame.short[: relaxed.n_segments]
             typical[short] = np.maximum(typical[short], _SHORTEST * horizon)
             self.typical[relaxed.segments], self.cuts = typical, program.cuts
             if self.plain:
@@ -320,7 +320,7 @@ class HorizonSearch:
         if bound > self.bounds.get("relaxation", 0.0):
             self.durations = np.zeros(problem.n_segments)
             found = solution.x[program.frame.T] * program.frame.typical
-            self.durations[relaxed.segments] = found[: relaxed.K]
+            self.durations[relaxed.segments] = found[: relaxed.n_segments]
             self.savings = np.zeros((3, problem.n_segments, problem.dof))
             self.savings[:, relaxed.segments[:, None], relaxed.joints] = price_limits(
                 self.demands, program, solution

@@ -111,7 +111,7 @@ def _derivatives(frame: Frame, kind: Kind, cuts: Cuts, x: Array) -> tuple[Array,
         top = frame.peak(kind.end, cuts)[0]
         return top, none, top - cuts.sign * x[frame.v[frame.relaxed.legs[k, kind.end], j]]
     if kind in PRODUCTS:
-        t, e, side = frame.corner(cuts, kind.end)
+        t, e, side = frame.corner(kind, cuts)
         return none, np.where(np.abs(e) >= 1.0, side * e * (t - x[frame.T[k]]), 0.0), none
     return none, none, none
 

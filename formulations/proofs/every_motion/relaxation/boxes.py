@@ -7,7 +7,8 @@ from dataclasses import dataclass, replace
 import numpy as np
 
 from formulations.problem.arrays import Array
-from formulations.proofs.every_motion.relaxation.relaxed_problem import DOWN, RelaxedProblem, down
+from formulations.proofs.every_motion.relaxation.legs import down
+from formulations.proofs.every_motion.relaxation.relaxed_problem import DOWN, RelaxedProblem
 
 
 @dataclass(frozen=True)
@@ -52,7 +53,7 @@ class Boxes:
         own = np.stack([np.maximum(relaxed.least, DOWN * relaxed.at_top_speed), relaxed.most], axis=1)
         durations = np.stack([least, most], axis=1)
         return Boxes(
-            np.concatenate([durations, own[relaxed.K :]]),
+            np.concatenate([durations, own[relaxed.n_segments :]]),
             joined_ends(relaxed, relaxed.a_boxes),
             joined_ends(relaxed, relaxed.zones[..., None] * (-1.0, 1.0)),
             joined_ends(relaxed, relaxed.v_boxes),
@@ -79,9 +80,9 @@ def with_legs(relaxed: RelaxedProblem, boxes: Boxes) -> Boxes:
     Boxes
         Empty where an interval is.
     """
-    if len(relaxed.legs) == relaxed.K:
+    if len(relaxed.legs) == relaxed.n_segments:
         return boxes
-    durations, K = boxes.durations.copy(), relaxed.K
+    durations, K = boxes.durations.copy(), relaxed.n_segments
     up = 2.0 - down(K + 1)
     low, high = (relaxed.over_legs(durations[:K, side]) for side in (0, 1))
     others = (durations[:K, 0].sum() - low) * down(K + 1) - (1.0 - down(K + 1)) * low

@@ -63,11 +63,11 @@ class Columns:
             fixed &= (relaxed.a_boxes[..., 0] == relaxed.a_boxes[..., 1]).all(axis=1)
             self.short |= fixed[relaxed.legs].all(axis=1)
         least = _LEAST_UNIT * durations[:, 1].max(initial=0.0)
-        typical = relaxed.over_legs(typical[: relaxed.K])
+        typical = relaxed.over_legs(typical[: relaxed.n_segments])
         typical = np.where(self.short, np.maximum(durations[:, 1], least), typical)
         self.typical = typical
         self.times_T = self.short[:, None] | relaxed.by_speed_alone
-        self.K, (L, n) = relaxed.K, relaxed.displacements.shape
+        self.K, (L, n) = relaxed.n_segments, relaxed.displacements.shape
         self.L, self.n = L, n
         self._number_columns(self.K, L, n)
         self.low, self.high = durations[:, 0] / typical * DOWN, durations[:, 1] / typical * UP
@@ -149,10 +149,10 @@ class Columns:
             k, j = np.nonzero(there[at] & long[:, None])
             reach = most[at[k], j] / low[k] * UP**2
             box[self.p[k, j, end]] = np.stack([-reach, reach], axis=-1)
-        self._box_times_T(box)
+        self._fill_short_boxes(box)
         return box
 
-    def _box_times_T(self, box: Array) -> None:
+    def _fill_short_boxes(self, box: Array) -> None:
         """Fill in the boxes of T v, T^2 a and T^3 of short segments."""
         low, high, short = self.low[self.short], self.high[self.short], self.short
         box[self.cube[short]] = np.stack([low**3 * DOWN, high**3 * UP], axis=1)

@@ -46,6 +46,7 @@ STOPS = (Kind.STOP_AT_START, Kind.STOP_AT_END)
 ZONES = (Kind.ZONE_AT_START, Kind.ZONE_AT_END)
 SPEED_PRODUCTS = (Kind.SPEED_PRODUCT_AT_START, Kind.SPEED_PRODUCT_AT_END)
 SQUARE_PRODUCTS = (Kind.SQUARE_PRODUCT_AT_START, Kind.SQUARE_PRODUCT_AT_END)
+ALL_PRODUCTS = (*PRODUCTS, *SPEED_PRODUCTS, *SQUARE_PRODUCTS, *ZONES)
 FADES = (Kind.FADE_AT_START, Kind.FADE_AT_END)
 DISTANCES = (Kind.DISTANCE, Kind.CRUISE)
 
@@ -64,7 +65,8 @@ class Cuts:
         Direction of motion, 1 or -1.
     at : Array, shape (m, 6)
         The place. First column: t [s] of (7) and (8), the number of a corner of (9) and (11), c [rad/s^3] or
-        an acceleration [rad/s^2] of (10). The first two columns of (2) and (3), all six of (1): switches in [0, 1].
+        an acceleration [rad/s^2] of (10). The first two columns of (2) and (3), all six of (1): switches in
+        [0, 1].
     """
 
     kind: Indices

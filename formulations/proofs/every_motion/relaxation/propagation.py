@@ -51,9 +51,9 @@ def propagate(relaxed: RelaxedProblem, boxes: Boxes) -> Boxes:
     boxes = with_legs(relaxed, boxes)
     if boxes.empty or not limited.any():
         return boxes
-    J, found = relaxed.jerks[: relaxed.K, limited], boxes.accelerations[:, limited].copy()
+    J, found = relaxed.jerks[: relaxed.n_segments, limited], boxes.accelerations[:, limited].copy()
     least, most = (
-        _upper_sides(*_ways(relaxed, boxes, sign, limited), J, boxes.durations[: relaxed.K])
+        _upper_sides(*_ways(relaxed, boxes, sign, limited), J, boxes.durations[: relaxed.n_segments])
         for sign in (-1.0, 1.0)
     )
     # where a number overflows the box stays as it is, and so does an acceleration that is given
@@ -61,7 +61,7 @@ def propagate(relaxed: RelaxedProblem, boxes: Boxes) -> Boxes:
     free = inner[..., 0] < inner[..., 1]
     inner[..., 0] = np.where(free, np.fmax(inner[..., 0], -least), inner[..., 0])
     inner[..., 1] = np.where(free, np.fmin(inner[..., 1], most), inner[..., 1])
-    changes = boxes.durations[: relaxed.K, 1, None] * J
+    changes = boxes.durations[: relaxed.n_segments, 1, None] * J
     for k, change in enumerate(changes):
         _follow(found[k + 1], found[k], change)
     for k, change in reversed(list(enumerate(changes))):
@@ -75,7 +75,7 @@ def propagate(relaxed: RelaxedProblem, boxes: Boxes) -> Boxes:
 
 def _ways(relaxed: RelaxedProblem, boxes: Boxes, sign: float, joints: Truths) -> tuple[Array, Array]:
     """Least displacement before and greatest one after each inner waypoint, (K - 1, n), in one direction."""
-    d = sign * relaxed.displacements[: relaxed.K, joints]
+    d = sign * relaxed.displacements[: relaxed.n_segments, joints]
     offsets = boxes.offsets[:, joints] if sign > 0.0 else -boxes.offsets[:, joints, ::-1]
     low, high = offsets[..., 0], offsets[..., 1]
     least, most = d + (low[1:] - high[:-1]), d + (high[1:] - low[:-1])

@@ -50,7 +50,7 @@ def separate(frame: Frame, x: Array, tolerance: float) -> Cuts:
     """
     proposed = [*_durations(frame, x), *_products(frame), *_zones(frame), *_peaks(frame, x)]
     if frame.short.any():
-        proposed += [*_products_times_T(frame), *_fades(frame, x)]
+        proposed += [*_short_products(frame), *_fades(frame, x)]
     proposed += [*_reach(frame, x), *_stops(frame, x)]
     kept = [
         cuts[frame.terms(kind, cuts).violated(x, tolerance)] for kind, cuts in proposed if len(cuts)
@@ -83,7 +83,7 @@ def _zones(frame: Frame) -> Iterator[Proposal]:
         yield kind, _corners(kind, k, j)
 
 
-def _products_times_T(frame: Frame) -> Iterator[Proposal]:
+def _short_products(frame: Frame) -> Iterator[Proposal]:
     """Rows (9) of T v and T^2 a in short segments, in all four corners."""
     with_states = frame.short[:, None] & ~frame.relaxed.by_speed_alone
     for kinds, low, high in (
@@ -168,7 +168,7 @@ def _states(frame: Frame, x: Array) -> tuple[Array, Array, Array, Array]:
 
 
 def _at_top_speed(frame: Frame) -> Iterator[Proposal]:
-    """Rows (1) of the joints with a velocity limit only, and of all in short segments, at top speed all the way."""
+    """Rows (1) at top speed all the way, of short segments and of joints with a velocity limit only."""
     k, j = np.nonzero(frame.times_T)
     k, j, sign = np.tile(k, 2), np.tile(j, 2), np.repeat((1.0, -1.0), len(k))
     at = np.tile([0.0, 0.0, 0.0, 1.0, 1.0, 1.0], (len(k), 1))
