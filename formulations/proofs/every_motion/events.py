@@ -206,7 +206,8 @@ def _rows_of(program: LinearProgram, multipliers: Array) -> list[Event]:
             rows.append(["x", joint, segment, kind.end, int(cuts.at[i, 0]), by_both])
         elif kind in FADES:
             waypoint = int(relaxed.waypoints[relaxed.legs[k, kind.end]])
-            rows.append(["V", joint, waypoint, sign, at[0], by_speed])
+            along = _hex(sign * cuts.at[i, 0])
+            rows.append(["V", joint, waypoint, sign, along, by_speed])
         elif kind in PRODUCTS:
             by_both = _hex(value / (unit[k] * float(relaxed.acceleration[j])))
             rows.append(["w", joint, segment, kind.end, int(cuts.at[i, 0]), by_both])

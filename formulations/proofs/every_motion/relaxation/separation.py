@@ -48,6 +48,11 @@ def separate(frame: Frame, x: Array, tolerance: float) -> Cuts:
     -------
     Cuts
     """
+    with np.errstate(all="ignore"):  # switches where a segment takes no time
+        return _violated(frame, x, tolerance)
+
+
+def _violated(frame: Frame, x: Array, tolerance: float) -> Cuts:
     proposed = [*_durations(frame, x), *_products(frame), *_zones(frame), *_peaks(frame, x)]
     if frame.short.any():
         proposed += [*_short_products(frame), *_fades(frame, x)]

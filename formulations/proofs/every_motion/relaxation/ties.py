@@ -23,6 +23,7 @@ from formulations.proofs.every_motion.relaxation.inequalities import Rows, Terms
 from formulations.proofs.every_motion.relaxation.relaxed_problem import DOWN, UP
 
 _ALLOWANCE = 64.0 * 2.0**-53
+_FIRST = 1e-12  # of the typical duration: (7) is posed no earlier
 
 
 class Ties(Columns):
@@ -81,7 +82,7 @@ class Ties(Columns):
         return np.asarray(np.clip(cuts.at[:, 0] / self.typical[k], self.low[k], self.high[k]))
 
     def _of_duration(self, kind: Kind, cuts: Cuts) -> Terms:
-        k, t, one = cuts.segment, self.place(cuts), np.ones(len(cuts))
+        k, t, one = cuts.segment, np.maximum(self.place(cuts), _FIRST), np.ones(len(cuts))
         if kind == Kind.TANGENT:
             column, a, upper = self._anchored(self.short[k], k, -one, -2.0 / t)
             return self._rows([self.of_T[k], column], [-1.0 / t**2, a], upper).normal()
@@ -170,7 +171,7 @@ class Ties(Columns):
         if kind in FADES:
             columns = [self.v[at, j], self.a[at, j]]
             upper = np.where(sound, top + 0.5 * share * place**2, np.inf)
-            return self._rows(columns, [sign, sign * share * place], upper)
+            return self._rows(columns, [sign, share * place], upper)
         c = cuts.at[:, 0] * self.typical[k] / self.relaxed.acceleration[j]
         columns = [self.v[at, j], self.W[k, j, end], self.square[k]]
         upper = np.where(sound & ~self.short[k], top, np.inf)
