@@ -11,7 +11,7 @@ from formulations.proofs.every_motion.relaxation.boxes import Boxes
 from formulations.proofs.every_motion.relaxation.relaxed_problem import DOWN, UP, RelaxedProblem
 
 _LEAST_UNIT = 1e-6  # of a short duration, in those of the longest
-_SHORT = 0.02  # of the greatest duration: 1 / T is not used below
+_SHORT = 1e-3  # of the greatest duration: 1 / T is not used below
 _ROOM = 1.0 + 1e-9  # (10) is posed where there is more time than an acceleration needs to fade
 
 
