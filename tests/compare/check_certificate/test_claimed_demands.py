@@ -71,10 +71,11 @@ def test_where_zones_meet_a_leg_may_take_no_time() -> None:
     assert checker.kept == [0, 1, 2]
     assert float(checker.boxes["T", 0][0]) == 0.0
     # one leg that is left, or one over both: the loosest limits of both segments
-    for checker, k in ((Relaxation(Claim({**zone, "without": [1]})), 0), (checker, checker.span(0, 2))):
-        assert [float(x) for x in checker.V[k][0]] == [1.0, 3.0]
-        assert float(checker.legs[k].jerk[0]) == 9.0
-        assert [float(x) for x in checker.boxes["T", k]] == pytest.approx([1.6 / 3.0, 9.0])
+    whole = Relaxation(Claim({**zone, "without": [1]}))
+    for of_both, k in ((whole, 0), (checker, checker.span(0, 2))):
+        assert [float(x) for x in of_both.V[k][0]] == [1.0, 3.0]
+        assert float(of_both.legs[k].jerk[0]) == 9.0
+        assert [float(x) for x in of_both.boxes["T", k]] == pytest.approx([1.6 / 3.0, 9.0])
 
 
 def test_a_proof_may_leave_out_waypoints() -> None:

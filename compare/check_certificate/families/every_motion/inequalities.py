@@ -30,7 +30,7 @@ from typing import Any
 from compare.check_certificate.answers import BadInput, need
 from compare.check_certificate.balls import Interval, R, most
 from compare.check_certificate.families.every_motion.setting import PRODUCTS, LegName, Setting, Variable
-from compare.check_certificate.families.every_motion.terms import Inequality, Terms
+from compare.check_certificate.families.every_motion.terms import Inequality, LegTerms
 from compare.check_certificate.reading import index, items, number
 
 WIDTHS = {
@@ -184,7 +184,7 @@ class Inequalities(Setting):
 
     def _change(self, j: int, k: LegName, sign: int) -> Inequality:
         """Row j."""
-        row = Terms(self, j, k, whole=False)
+        row = LegTerms(self, j, k, whole=False)
         for end in (0, 1):
             row.add(self.at_end("a", k, j, end), R(sign if end else -sign))
         row.less(2, R(1), self.legs[k].jerk[j])
@@ -244,7 +244,7 @@ class Inequalities(Setting):
 
     def _speed(self, j: int, k: LegName, sign: int, s1: Any, s2: Any) -> Inequality:
         """Row a."""
-        row, e2 = Terms(self, j, k, whole=False), 1 - s2
+        row, e2 = LegTerms(self, j, k, whole=False), 1 - s2
         for end, share in ((0, s1), (1, e2)):
             row.speed(end, R(sign if end else -sign))
             row.turn(end, -sign * share)
@@ -265,7 +265,7 @@ class Inequalities(Setting):
             bound is not None,
             f"a row poses a limit that joint {self.claim.joint_name(j)} does not have",
         )
-        row = Terms(self, j, k, whole=whole)
+        row = LegTerms(self, j, k, whole=whole)
         row.constant(-(towards * (bound - self.c[i][j]) + self.claim.slack))
         row.offset(end, towards)
         row.speed(end, sign * s2)
@@ -282,7 +282,7 @@ class Inequalities(Setting):
         z, y = (s2 + s3) / 2, (s4 + s5) / 2
         turn = ((s3 - s2) ** 3 + (s5 - s4) ** 3) / 12 if cruises else (s5 - s2) ** 3 / 12
         o, e6 = (1 - y) * (1 - s6) - (1 - s6) ** 2 / 2, 1 - s6
-        row = Terms(self, j, k, whole=whole)
+        row = LegTerms(self, j, k, whole=whole)
         first, last = (self.c[self.waypoint(k, end)][j] for end in (0, 1))
         row.constant(sign * (last - first))
         for end, speed, turned in ((0, -z, -(z * s1 - s1 * s1 / 2)), (1, y - 1, o)):

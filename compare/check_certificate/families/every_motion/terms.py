@@ -20,7 +20,7 @@ _ONE: Variable = ("1",)
 Inequality = tuple[dict[Variable, Any], Any]
 
 
-class Terms:
+class LegTerms:
     """A sum of terms that is at most 0.
 
     whole: whether it is times T.
