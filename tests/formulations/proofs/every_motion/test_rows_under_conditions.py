@@ -81,7 +81,7 @@ def framed(made: Scenario, stretch: float) -> Frame | None:
     most = np.minimum(relaxed.most[: relaxed.n_segments], relaxed.horizon - (least.sum() - least))
     boxes = propagate(relaxed, Boxes.around(relaxed, least * (1 - 1e-12), most * (1 + 1e-12)))
     assert not boxes.empty
-    return Frame(relaxed, boxes, 1.7 * least + 1e-3)
+    return Frame(relaxed, boxes, 1.7 * least + 0.3)
 
 
 def with_speed_alone(made: Scenario) -> None:
