@@ -40,12 +40,15 @@ from formulations.deadlines import Deadline
 from formulations.problem.arrays import Array
 from formulations.proofs.every_motion.relaxation.boxes import Boxes
 from formulations.proofs.every_motion.relaxation.cuts import (
+    CRUISES,
     FADES,
+    HULLS,
     PEAKS,
     PRODUCTS,
     SPEED_PRODUCTS,
     SQUARE_PRODUCTS,
     STOPS,
+    TANGENTS,
     ZONES,
     Cuts,
     Kind,
@@ -169,10 +172,12 @@ def _rows_of(program: LinearProgram, multipliers: Array) -> list[Event]:
     rows: list[Event] = []
     if y[0]:
         rows.append(["h", _hex(y[0] / relaxed.horizon)])
-    for k in np.flatnonzero(y[1 : frame.L + 1]).tolist():
-        by_unit = y[k + 1] / unit[k] ** 2 if frame.short[k] else y[k + 1] * unit[k]
-        rows.append(["S" if frame.short[k] else "s", _leg(relaxed, k), _hex(by_unit)])
-    first = frame.L + 1
+    first = 1
+    for name, which, units in (("s", frame.long, unit), ("S", frame.short, unit**-2)):
+        for k in np.flatnonzero(which).tolist():
+            if y[first]:
+                rows.append([name, _leg(relaxed, k), _hex(y[first] * units[k])])
+            first += 1
     for k in range(frame.K, frame.L):
         for sign, value in zip((1, -1), y[first : first + 2].tolist(), strict=True):
             if value:
@@ -188,16 +193,16 @@ def _rows_of(program: LinearProgram, multipliers: Array) -> list[Event]:
         kind, k, j = Kind(int(cuts.kind[i])), int(cuts.segment[i]), int(cuts.joint[i])
         segment, joint, sign = _leg(relaxed, k), int(relaxed.joints[j]), int(cuts.sign[i])
         at, value = [_hex(x) for x in cuts.at[i]], float(of_cuts[i])
-        short, times_T = bool(frame.short[k]), bool(frame.times_T[k, j])
+        times_T = kind.times_T
         reach = value / (float(unit[k]) if times_T else 1.0)
         of_reach = _hex(reach / float(relaxed.velocity[j]))
         by_speed = _hex(value / float(relaxed.velocity[j]))
-        if kind == Kind.TANGENT:
-            by_unit = value / (places[i] ** 2) if short else value * unit[k]
-            rows.append(["T" if short else "t", segment, _hex(places[i]), _hex(by_unit)])
-        elif kind == Kind.HULL:
-            by_unit = value / unit[k] ** (3 if short else 2)
-            rows.append(["C" if short else "c", segment, _hex(places[i]), _hex(by_unit)])
+        if kind in TANGENTS:
+            by_unit = value / places[i] ** 2 if times_T else value * unit[k]
+            rows.append(["T" if times_T else "t", segment, _hex(places[i]), _hex(by_unit)])
+        elif kind in HULLS:
+            by_unit = value / unit[k] ** (3 if times_T else 2)
+            rows.append(["C" if times_T else "c", segment, _hex(places[i]), _hex(by_unit)])
         elif kind in SPEED_PRODUCTS:
             by_both = _hex(value / (unit[k] * float(relaxed.velocity[j])))
             rows.append(["g", joint, segment, kind.end, int(cuts.at[i, 0]), by_both])
@@ -206,7 +211,8 @@ def _rows_of(program: LinearProgram, multipliers: Array) -> list[Event]:
             rows.append(["x", joint, segment, kind.end, int(cuts.at[i, 0]), by_both])
         elif kind in FADES:
             waypoint = int(relaxed.waypoints[relaxed.legs[k, kind.end]])
-            rows.append(["V", joint, waypoint, sign, at[0], by_speed])
+            along = _hex(sign * cuts.at[i, 0])
+            rows.append(["V", joint, waypoint, sign, along, by_speed])
         elif kind in PRODUCTS:
             by_both = _hex(value / (unit[k] * float(relaxed.acceleration[j])))
             rows.append(["w", joint, segment, kind.end, int(cuts.at[i, 0]), by_both])
@@ -225,7 +231,7 @@ def _rows_of(program: LinearProgram, multipliers: Array) -> list[Event]:
         elif kind == Kind.SPEED:
             rows.append(["a", joint, segment, sign, *at[:2], by_speed])
         else:
-            name = "d" if kind == Kind.CRUISE else "k"
+            name = "d" if kind in CRUISES else "k"
             rows.append([name.upper() if times_T else name, joint, segment, sign, *at, of_reach])
     return rows
 

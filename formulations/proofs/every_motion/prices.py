@@ -15,6 +15,7 @@ import numpy as np
 from formulations.problem.arrays import Array
 from formulations.problem.demands import Demands
 from formulations.proofs.every_motion.relaxation.cuts import (
+    CRUISES,
     DISTANCES,
     FADES,
     PEAKS,
@@ -100,12 +101,13 @@ def _derivatives(frame: Frame, kind: Kind, cuts: Cuts, x: Array) -> tuple[Array,
     k, j = cuts.segment, cuts.joint
     none, with_it = np.zeros(len(k)), (cuts.sign > 0.0).astype(np.intp)
     if kind in (*DISTANCES, *STOPS, Kind.SPEED):
-        A, against = (frame.ramps[k, j, side] * x[frame.of_T[k]] for side in (with_it, 1 - with_it))
-        if kind == Kind.STOP_AT_END:  # with time turned the joint brakes the other way
+        T, square = (x[columns[k]] for columns in frame.parts[kind.times_T][:2])
+        A, against = (frame.ramps[k, j, side] * T for side in (with_it, 1 - with_it))
+        if kind in STOPS and kind.end:  # with time turned the joint brakes the other way
             A, against = against, A
         c_V, c_A, c_against, c_J = _limit_coefficients(kind, cuts.at)
-        J = frame.bend[k, j] * x[frame.of_square[k]]
-        by_V = c_V * frame.top[k, j, with_it] * np.where(frame.times_T[k, j], x[frame.T[k]], 1.0)
+        J = frame.bend[k, j] * square
+        by_V = c_V * frame.top[k, j, with_it] * (x[frame.T[k]] if kind.times_T else 1.0)
         return by_V, c_A * A + c_against * against, c_J * J
     if kind in (*PEAKS, *FADES):
         top = frame.peak(kind.end, cuts)[0]
@@ -119,7 +121,7 @@ def _derivatives(frame: Frame, kind: Kind, cuts: Cuts, x: Array) -> tuple[Array,
 def _limit_coefficients(kind: Kind, at: Array) -> tuple[Array, Array, Array, Array]:
     """Coefficients of V, of A T with and against the motion, and of J T^2 in (1), (2) or (3), each (m,)."""
     if kind in DISTANCES:
-        cruises = kind == Kind.CRUISE
+        cruises = kind in CRUISES
         coefficients = distance_coefficients(at, cruises)
         return coefficients[4], *arc_coefficients(at, cruises), coefficients[6]
     none = np.zeros(len(at))

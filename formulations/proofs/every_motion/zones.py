@@ -53,8 +53,8 @@ class ZoneSearch(HorizonSearch):
 
     def _leave_zones_out(self, gap: float, deadline: Deadline) -> None:
         inner = self.demands.waypoints[1:-1]
-        zones = set((np.flatnonzero((inner[..., 0] < inner[..., 1]).any(axis=1)) + 1).tolist())
-        zones = sorted(zones - self.idle)
+        wide = set((np.flatnonzero((inner[..., 0] < inner[..., 1]).any(axis=1)) + 1).tolist())
+        zones = sorted(wide - self.idle)
         if len(zones) > _FEW:
             return
         best = self._first_bound(deadline)

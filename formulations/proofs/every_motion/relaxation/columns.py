@@ -11,7 +11,7 @@ from formulations.proofs.every_motion.relaxation.boxes import Boxes
 from formulations.proofs.every_motion.relaxation.relaxed_problem import DOWN, UP, RelaxedProblem
 
 _LEAST_UNIT = 1e-6  # of a short duration, in those of the longest
-_SHORT = 0.02  # of the greatest duration: 1 / T is not used below
+_SHORT, _NONE = 0.1, 1e-6  # of the greatest duration: rows times T are used below, 1 / T above
 _ROOM = 1.0 + 1e-9  # (10) is posed where there is more time than an acceleration needs to fade
 
 
@@ -31,9 +31,9 @@ class Columns:
     p : Indices, shape (L, n, 2)
         Columns of e / T at both ends, in units of e and T; -1 where there is no zone.
     short : Truths, shape (L,)
-        Which segments may take no time, or next to none: their rows are taken times T.
-    times_T : Truths, shape (L, n)
-        Whose rows are taken times T: those of short segments, and of joints with a velocity limit only.
+        Which segments may be so short that their rows are posed times T.
+    long : Truths, shape (L,)
+        Which segments certainly take time, so that they have rows in 1 / T.
     g, X : Indices, shape (L, n, 2)
         Columns of T v and T^2 a at both ends of a short segment; -1 elsewhere.
     cube : Indices, shape (L,)
@@ -57,16 +57,11 @@ class Columns:
         """
         self.relaxed, self.boxes = relaxed, boxes
         durations = boxes.durations
-        self.short = durations[:, 0] <= (0.0 if relaxed.plain else _SHORT) * durations[:, 1]
-        if not relaxed.plain:
-            fixed = (relaxed.v_boxes[..., 0] == relaxed.v_boxes[..., 1]).all(axis=1)
-            fixed &= (relaxed.a_boxes[..., 0] == relaxed.a_boxes[..., 1]).all(axis=1)
-            self.short |= fixed[relaxed.legs].all(axis=1)
+        self.short, self.long = _forms(relaxed, durations)
         least = _LEAST_UNIT * durations[:, 1].max(initial=0.0)
         typical = relaxed.over_legs(typical[: relaxed.n_segments])
-        typical = np.where(self.short, np.maximum(durations[:, 1], least), typical)
+        typical = np.where(self.long, typical, np.maximum(durations[:, 1], least))
         self.typical = typical
-        self.times_T = self.short[:, None] | relaxed.by_speed_alone
         self.K, (L, n) = relaxed.n_segments, relaxed.displacements.shape
         self.L, self.n = L, n
         self._number_columns(self.K, L, n)
@@ -115,23 +110,17 @@ class Columns:
         if self.relaxed.cyclic:
             for columns in (self.v, self.a, self.e):
                 columns[-1] = columns[0]
-        # what plays the part of T, T^2, v, W and p in the rows of a segment, times T where that is short
-        both_ends = [self._at_ends(columns) for columns in (self.v, self.e)]
-        self.of_T, self.of_square = (
-            np.where(self.short, times_T, usual)
-            for times_T, usual in ((self.square, self.T), (self.cube, self.square))
+        # what stands for T, T^2, v, W and p in the rows in 1 / T, as they are and times T
+        self.parts = (
+            (self.T, self.square, self._at_ends(self.v), self.W, self.p),
+            (self.square, self.cube, self.g, self.X, self._at_ends(self.e)),
         )
-        self.of_v, self.of_W = (
-            np.where(self.short[:, None, None], times_T, usual)
-            for times_T, usual in ((self.g, both_ends[0]), (self.X, self.W))
-        )
-        self.of_p = np.where(self.times_T[..., None], both_ends[1], self.p)
 
     def _boxes(self) -> Array:
         low, high, relaxed = self.low, self.high, self.relaxed
         box = np.zeros((self.size, 2))
         box[self.T] = np.stack([low, high], axis=1)
-        long = ~self.short
+        long = self.long
         bounds = [1.0 / high[long] * DOWN, 1.0 / low[long] * UP]
         box[self.inverse[long]] = np.stack(bounds, axis=1)
         box[self.square] = np.stack([low**2 * DOWN, high**2 * UP], axis=1)
@@ -139,8 +128,8 @@ class Columns:
         box[self.a] = np.stack([self.a_low, self.a_high], axis=-1)
         for end in (0, 1):
             at = relaxed.legs[:, end]
-            bounds = _product(low[:, None], high[:, None], self.a_low[at], self.a_high[at])
-            box[self.W[:, :, end]] = bounds
+            a = self.a_low[at], self.a_high[at]
+            box[self.W[:, :, end]] = _product(low[:, None], high[:, None], *a)
         there = relaxed.zones > 0.0
         box[self.e[there]] = np.stack([self.e_low[there], self.e_high[there]], axis=-1)
         for end in (0, 1):
@@ -162,8 +151,7 @@ class Columns:
         ):
             for end in (0, 1):
                 at = self.relaxed.legs[short, end]
-                bounds = _product(*power, least[at], greatest[at])
-                box[columns[short, :, end]] = bounds
+                box[columns[short, :, end]] = _product(*power, least[at], greatest[at])
 
     def _times_to_fade(self) -> tuple[Truths, Truths]:
         """Where an acceleration at a waypoint has the time to rise from 0 before it, or to fall to 0 after it.
@@ -197,6 +185,18 @@ def _product(low: Array, high: Array, least: Array, greatest: Array) -> Array:
     bottom, top = np.minimum(low * least, high * least), np.maximum(low * greatest, high * greatest)
     wider = UP - 1.0
     return np.stack([bottom - wider * np.abs(bottom), top + wider * np.abs(top)], axis=-1)
+
+
+def _forms(relaxed: RelaxedProblem, durations: Array) -> tuple[Truths, Truths]:
+    """Which legs have rows times T, and which have rows in 1 / T."""
+    low, high = durations.T
+    if relaxed.plain:
+        return low <= 0.0 * high, low > 0.0
+    # where both ends are given times T loses nothing, whatever the position in a zone
+    still = (relaxed.v_boxes[..., 0] == relaxed.v_boxes[..., 1]).all(axis=1)
+    still &= (relaxed.a_boxes[..., 0] == relaxed.a_boxes[..., 1]).all(axis=1)
+    given = still[relaxed.legs].all(axis=1)
+    return (low <= _SHORT * high) | given, (low > _NONE * high) & ~given
 
 
 def _shares(intervals: Array, unit: Array) -> tuple[Array, Array]:

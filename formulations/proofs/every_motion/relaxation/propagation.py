@@ -106,7 +106,9 @@ def _upper_sides(d: Array, e: Array, J: Array, durations: Array) -> Array:
     jerk = jerks[:-1] * product(3, 1) + jerks[1:] * product(1, 3)
     sizes = abs(ways[0]) + abs(ways[1]) + jerk
     below = product(2, 1) + product(1, 2)
-    tops = (ways[0] + ways[1] + jerk + _ROUNDING * sizes + _UNDERFLOW) / below
+    tops = ways[0] + ways[1] + jerk + _ROUNDING * sizes + _UNDERFLOW
+    with np.errstate(divide="ignore", invalid="ignore"):  # beside a segment that may take no time
+        tops = tops / below
     return np.where(below > _SMALL, tops, np.inf).max(axis=(2, 3))
 
 

@@ -38,9 +38,12 @@ import numpy as np
 
 from formulations.proofs.every_motion.relaxation.cuts import (
     ALL_PRODUCTS,
+    CRUISES,
     FADES,
+    HULLS,
     PEAKS,
     STOPS,
+    TANGENTS,
     Cuts,
     Kind,
 )
@@ -95,7 +98,7 @@ class Frame(Ties):
         return self._of_kind(kind, cuts).in_range()
 
     def _of_kind(self, kind: Kind, cuts: Cuts) -> Terms:
-        if kind in (Kind.TANGENT, Kind.HULL):
+        if kind in (*TANGENTS, *HULLS):
             return self._of_duration(kind, cuts)
         if kind in ALL_PRODUCTS:
             return self._product(kind, cuts)
@@ -104,11 +107,11 @@ class Frame(Ties):
         if kind == Kind.CHANGE:
             return self._change(cuts)
         if kind in STOPS:
-            return self._stop(kind.end, cuts)
-        return self._speed(cuts) if kind == Kind.SPEED else self._distance(kind == Kind.CRUISE, cuts)
+            return self._stop(kind, cuts)
+        return self._speed(cuts) if kind == Kind.SPEED else self._distance(kind, cuts)
 
-    def _stop(self, end: int, cuts: Cuts) -> Terms:
-        k, j, sign = cuts.segment, cuts.joint, cuts.sign
+    def _stop(self, kind: Kind, cuts: Cuts) -> Terms:
+        k, j, sign, end = cuts.segment, cuts.joint, cuts.sign, kind.end
         c_v, c_W, c_A, c_J = stop_coefficients(cuts.at[:, :2])
         # with time turned W changes its sign, and the joint comes from where it would go
         c_W = -c_W if end else c_W
@@ -117,10 +120,11 @@ class Frame(Ties):
         room = self.room[k, end, j, side] / self.typical[k]
         ramp, bend = self.ramp[k, j], self.bend[k, j]
         away = self.ramps[k, j, 1 - side]  # the acceleration that points away from the limit
-        column, of_room, upper = self._anchored(self.times_T[k, j], k, -room, np.zeros(len(k)))
-        columns = [self.of_v[k, j, end], self.of_W[k, j, end], column, self.of_T[k], self.of_square[k]]
+        column, of_room, upper = self._anchored(kind, cuts, -room, np.zeros(len(k)))
+        T, square, v, W, p = self.parts[kind.times_T]
+        columns = [v[k, j, end], W[k, j, end], column, T[k], square[k]]
         a = [sign * c_v, sign * c_W * ramp, of_room, -c_A * away, -c_J * bend]
-        columns.append(np.maximum(self.of_p[k, j, end], 0))
+        columns.append(np.maximum(p[k, j, end], 0))
         a.append(np.where(side == 1, 1.0, -1.0) * self.shift[k, j, end])
         return self._rows(columns, a, upper)
 
@@ -135,27 +139,22 @@ class Frame(Ties):
         a += [-c_A * self.ramps[k, j, forwards_of(sign)], -c_J * bend]
         return self._rows([*columns, self.T[k], self.square[k]], a, np.zeros(len(k)))
 
-    def _distance(self, cruises: bool, cuts: Cuts) -> Terms:
-        k, j, sign = cuts.segment, cuts.joint, cuts.sign
+    def _distance(self, kind: Kind, cuts: Cuts) -> Terms:
+        k, j, sign, cruises = cuts.segment, cuts.joint, cuts.sign, kind in CRUISES
         c_v0, c_W0, c_v1, c_W1, c_V, _, c_J = distance_coefficients(cuts.at, cruises)
         rising, falling = arc_coefficients(cuts.at, cruises)
         require(self.relaxed.has_jerk[j] | (c_J == 0.0))
         ramp, bend, forwards = self.ramp[k, j], self.bend[k, j], forwards_of(sign)
         arcs = rising * self.ramps[k, j, forwards] + falling * self.ramps[k, j, 1 - forwards]
         column, of_distance, upper = self._anchored(
-            self.times_T[k, j], k, sign * self.distance[k, j], c_V * self.top[k, j, forwards]
+            kind, cuts, sign * self.distance[k, j], c_V * self.top[k, j, forwards]
         )
-        columns = [
-            column,
-            self.of_v[k, j, 0],
-            self.of_v[k, j, 1],
-            self.of_W[k, j, 0],
-            self.of_W[k, j, 1],
-        ]
+        T, square, v, W, p = self.parts[kind.times_T]
+        columns = [column, v[k, j, 0], v[k, j, 1], W[k, j, 0], W[k, j, 1]]
         a = [of_distance, -sign * c_v0, -sign * c_v1, -sign * c_W0 * ramp]
         a += [-sign * c_W1 * ramp, -arcs, -c_J * bend]
-        columns += [self.of_T[k], self.of_square[k]]
+        columns += [T[k], square[k]]
         for end, side in ((0, -sign), (1, sign)):
-            columns.append(np.maximum(self.of_p[k, j, end], 0))
+            columns.append(np.maximum(p[k, j, end], 0))
             a.append(side * self.shift[k, j, end])  # 0 where there is no zone
         return self._rows(columns, a, upper)

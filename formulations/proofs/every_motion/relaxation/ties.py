@@ -12,10 +12,13 @@ import numpy as np
 from formulations.problem.arrays import Array, Indices, Truths
 from formulations.proofs.every_motion.relaxation.columns import Columns
 from formulations.proofs.every_motion.relaxation.cuts import (
+    CRUISES,
     FADES,
     PRODUCTS,
     SPEED_PRODUCTS,
     SQUARE_PRODUCTS,
+    TANGENTS,
+    ZONES,
     Cuts,
     Kind,
 )
@@ -23,6 +26,7 @@ from formulations.proofs.every_motion.relaxation.inequalities import Rows, Terms
 from formulations.proofs.every_motion.relaxation.relaxed_problem import DOWN, UP
 
 _ALLOWANCE = 64.0 * 2.0**-53
+_FIRST = 1e-12  # of the typical duration: (7) is posed no earlier
 
 
 class Ties(Columns):
@@ -30,19 +34,20 @@ class Ties(Columns):
 
     def fixed(self) -> Rows:
         """Rows (5) and (6); the bounds of the sums before waypoints come last."""
-        low, high, one = self.low, self.high, np.ones(self.L)
         T, typical = self.T[: self.K], self.typical[: self.K]
         share = list(typical[:, None] / self.relaxed.horizon)
         total = self._rows([np.array([column]) for column in T], share, np.ones(1))
-        columns = [self.inverse, self.T]
-        with np.errstate(divide="ignore", invalid="ignore"):
-            a, upper = [one, 1.0 / (low * high)], 1.0 / low + 1.0 / high
-        if self.short.any():  # times T and its two bounds
-            columns = [np.where(self.short, self.square, self.inverse), self.T]
-            a = [one, np.where(self.short, -(low + high), a[1])]
-            upper = np.where(self.short, -low * high, upper)
-        secants = self._rows(columns, a, upper).normal()
-        blocks = [total.rows(self.size), secants.rows(self.size)]
+        blocks = [total.rows(self.size)]
+        for which, times_T in ((self.long, False), (self.short, True)):
+            low, high = self.low[which], self.high[which]
+            one = np.ones(len(low))
+            if times_T:  # and times both bounds
+                columns, a = [self.square[which], self.T[which]], [one, -(low + high)]
+                upper = -low * high
+            else:
+                columns, a = [self.inverse[which], self.T[which]], [one, 1.0 / (low * high)]
+                upper = 1.0 / low + 1.0 / high
+            blocks.append(self._rows(columns, a, upper).normal().rows(self.size))
         for leg in range(self.K, self.L):  # the time of a leg is the sum of its segments'
             i, k = self.relaxed.legs[leg]
             columns = [np.array([c]) for c in (self.T[leg], *T[i:k])]
@@ -78,34 +83,37 @@ class Ties(Columns):
         Array, shape (m,)
         """
         k = cuts.segment
-        return np.asarray(np.clip(cuts.at[:, 0] / self.typical[k], self.low[k], self.high[k]))
+        low = np.maximum(self.low[k], _FIRST)
+        return np.asarray(np.clip(cuts.at[:, 0] / self.typical[k], low, self.high[k]))
 
     def _of_duration(self, kind: Kind, cuts: Cuts) -> Terms:
         k, t, one = cuts.segment, self.place(cuts), np.ones(len(cuts))
-        if kind == Kind.TANGENT:
-            column, a, upper = self._anchored(self.short[k], k, -one, -2.0 / t)
-            return self._rows([self.of_T[k], column], [-1.0 / t**2, a], upper).normal()
+        T, square = (columns[k] for columns in self.parts[kind.times_T][:2])
+        if kind in TANGENTS:
+            column, a, upper = self._anchored(kind, cuts, -one, -2.0 / t)
+            return self._rows([T, column], [-1.0 / t**2, a], upper).normal()
         h = self.high[k]
-        column, a, upper = self._anchored(self.short[k], k, -h * t**2, -(2.0 * h * t + t**2))
-        columns = [self.of_square[k], self.of_T[k], column]
-        return self._rows(columns, [one, -(h + 2.0 * t), a], upper).normal()
+        column, a, upper = self._anchored(kind, cuts, -h * t**2, -(2.0 * h * t + t**2))
+        return self._rows([square, T, column], [one, -(h + 2.0 * t), a], upper).normal()
 
     def _anchored(
-        self, times_T: Truths, k: Indices, of_inverse: Array, upper: Array
+        self, kind: Kind, cuts: Cuts, of_inverse: Array, upper: Array
     ) -> tuple[Indices, Array, Array]:
-        """The term in 1 / T and the right hand side of a row: where it is taken times T they are upper T and 1.
+        """The term in 1 / T and the right hand side of a row.
+
+        Times T they are the right hand side and the term in T. The row is not posed where its variables are
+        not there.
 
         Returns
         -------
         column : Indices, shape (m,)
         coefficient, upper : Array, shape (m,)
         """
-        column = np.where(times_T, self.T[k], self.inverse[k])
-        return (
-            column,
-            np.where(times_T, -upper, of_inverse),
-            np.where(times_T, -of_inverse, upper),
-        )
+        k = cuts.segment
+        if not kind.times_T:
+            return self.inverse[k], of_inverse, np.where(self.long[k], upper, np.inf)
+        there = self.short[k] | (self.relaxed.by_speed_alone[cuts.joint] & (kind in CRUISES))
+        return self.T[k], -upper, np.where(there, -of_inverse, np.inf)
 
     def _product(self, kind: Kind, cuts: Cuts) -> Terms:
         k, j, end = cuts.segment, cuts.joint, kind.end
@@ -119,10 +127,10 @@ class Ties(Columns):
         else:
             columns = [self.p[k, j, end], self.e[at, j], self.inverse[k]]
         t, f, side = self.corner(kind, cuts)
-        of_short = None if kind in PRODUCTS else kind in (*SPEED_PRODUCTS, *SQUARE_PRODUCTS)
         bound = side * t * f
-        if of_short is not None:  # the product is there in short segments only, or in the others
-            bound = np.where(self.short[k] == of_short, bound, np.inf)
+        if kind not in PRODUCTS:  # such a product is not there in every segment
+            there = self.long if kind in ZONES else self.short
+            bound = np.where(there[k], bound, np.inf)
         return self._rows(columns, [-side, side * t, side * f], bound)
 
     def corner(self, kind: Kind, cuts: Cuts) -> tuple[Array, Array, Array]:
@@ -170,10 +178,10 @@ class Ties(Columns):
         if kind in FADES:
             columns = [self.v[at, j], self.a[at, j]]
             upper = np.where(sound, top + 0.5 * share * place**2, np.inf)
-            return self._rows(columns, [sign, sign * share * place], upper)
+            return self._rows(columns, [sign, share * place], upper)
         c = cuts.at[:, 0] * self.typical[k] / self.relaxed.acceleration[j]
         columns = [self.v[at, j], self.W[k, j, end], self.square[k]]
-        upper = np.where(sound & ~self.short[k], top, np.inf)
+        upper = np.where(sound & self.long[k], top, np.inf)
         return self._rows(columns, [sign, share * c, -0.5 * share * c**2], upper)
 
     def peak(self, end: int, cuts: Cuts) -> tuple[Array, Array, Truths]:

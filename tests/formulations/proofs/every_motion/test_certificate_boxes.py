@@ -1,7 +1,8 @@
-"""What the prover narrows a box to is what its multipliers prove in the checker, converged or not.
+"""Rows are posed in boxes that are those of the checker, so that multipliers hold there as well.
 
 A program whose time is over has few rows, so its optimum may lie at an end of the interval of a product. If the
-checker's interval were narrower it would prove more, and the next multipliers would be for other rows.
+checker's interval is narrower, it narrows the next box more. The rows in it are then others than those for
+which the next multipliers were found, and the last sum may prove less.
 """
 
 from __future__ import annotations
@@ -11,68 +12,64 @@ from typing import Any
 
 import numpy as np
 import pytest
-from test_conditioned_certificates import asked
+from test_conditioned_certificates import KINDS, asked
 
 from compare.check_certificate.claim import Claim
 from compare.check_certificate.families.every_motion.relaxation import Relaxation
-from formulations.deadlines import Deadline
 from formulations.problem.demands import Demands
 from formulations.proofs.certificate import certificate_of
 from formulations.proofs.every_motion import events
-from formulations.proofs.every_motion.horizons import HorizonSearch
-from formulations.proofs.every_motion.zones import ZoneSearch
+from formulations.proofs.every_motion.relaxation.propagation import propagate
+from formulations.proofs.every_motion.relaxation.relaxed_problem import RelaxedProblem
+from formulations.proofs.every_motion.relaxation.rows import Frame
 
-SHARE = 0.8  # of the rows of a search
-
-
-@pytest.mark.long  # searches and proofs
-@pytest.mark.parametrize("kind", ["limits by direction", "limits of a segment", "zones", "free ends"])
-def test_the_checker_narrows_boxes_as_the_prover_does(
-    kind: str, monkeypatch: pytest.MonkeyPatch
-) -> None:
-    for name, value in {"_ROUNDS": 1, "FEW": 1, "MANY": 1, "_STEPS": 4}.items():
-        monkeypatch.setattr(events, name, value)
-    narrowed: list[float] = []
-    note = events._Events.narrowed
-
-    def spy(self: Any, program: Any, column: int, side: int, found: Any) -> None:
-        _, unit = events._narrowed(program.frame, column)
-        narrowed.append(found.bound * unit)
-        note(self, program, column, side, found)
-
-    monkeypatch.setattr(events._Events, "narrowed", spy)
-    for seed in range(4):
-        narrowed.clear()
-        proved = narrowings(certificate(kind, seed))
-        several = len(proved) >= 4
-        assert several
-        assert proved == pytest.approx(narrowed[: len(proved)], rel=1e-8)
+HORIZON = 20.0
 
 
-def certificate(kind: str, seed: int) -> dict[str, Any]:
-    """A certificate from a part of the rows of a search, which narrows boxes for a better bound."""
-    rng = np.random.default_rng(seed)
-    demands = Demands.of(*asked(kind, rng))
-    search = (ZoneSearch if kind == "zones" else HorizonSearch)(demands, None, None)
-    search.run(2e-2, Deadline(10.0))
-    search.cuts = search.cuts[rng.random(len(search.cuts)) < SHARE]
-    search.bounds["relaxation"] *= 1.02
-    seconds, horizon, found = search.certify(Deadline(10.0))
-    data = certificate_of(demands.problem, seconds, found, horizon=horizon, demands=demands)
-    return json.loads(json.dumps(data | {"without": sorted(search.without)}))
-
-
-def narrowings(data: dict[str, Any]) -> list[float]:
-    """The bounds that the checker finds for the events that narrow a box."""
-    checker, found = Relaxation(Claim(data)), []
-    least = checker.least
-
-    def spy(cost: Any, rows: Any, time: int = 0) -> Any:
-        bound = least(cost, rows, time)
-        if cost:
-            found.append(float(bound))
-        return bound
-
-    checker.least = spy  # type: ignore[method-assign]
+@pytest.mark.parametrize("kind", KINDS)
+@pytest.mark.parametrize("seed", range(3))
+def test_all_boxes_are_those_of_the_checker(kind: str, seed: int) -> None:
+    problem, conditions = asked(kind, np.random.default_rng(seed))
+    demands = Demands.of(problem, conditions)
+    relaxed = RelaxedProblem.under(demands, HORIZON)
+    with np.errstate(divide="ignore", invalid="ignore"):
+        boxes = propagate(relaxed, events._first_boxes(relaxed))
+        frame = Frame(relaxed, boxes, np.full(relaxed.n_segments, 0.7))
+    data = certificate_of(problem, 1e-3, [["P"], ["F", []]], horizon=HORIZON, demands=demands)
+    checker = Relaxation(Claim(json.loads(json.dumps(data))))
     checker.replay()
-    return found
+    compared = set()
+    for key, column, unit in named(frame, checker):
+        lo, hi = (float(x) for x in checker.box(key))
+        size = 1e-9 * (1.0 + abs(lo) + abs(hi))
+        assert frame.box[column] * unit == pytest.approx([lo, hi], abs=size), key
+        compared.add(key[0])
+    assert compared >= set("Tqva" if kind == "waits" else "TqvaW")  # at rest at all waypoints
+
+
+def named(frame: Frame, checker: Relaxation) -> Any:
+    """Variables by the checker's names, with their columns and units."""
+    relaxed = frame.relaxed
+    for i, waypoint in enumerate(relaxed.waypoints.tolist()):
+        for j, joint in enumerate(relaxed.joints.tolist()):
+            units = relaxed.velocity[j], relaxed.acceleration[j], relaxed.zones[i, j]
+            for letter, unit in zip("vae", units, strict=True):
+                if getattr(frame, letter)[i, j] >= 0:
+                    yield checker.at(letter, waypoint, joint), getattr(frame, letter)[i, j], unit
+    for k, (start, end) in enumerate(relaxed.legs.tolist()):
+        ends = relaxed.waypoints[[start, end]].tolist()
+        leg = ends[0] if end == start + 1 else checker.span(*ends)
+        T = frame.typical[k]
+        yield ("T", leg), frame.T[k], T
+        yield ("q", leg), frame.square[k], T**2
+        if frame.cube[k] >= 0:
+            yield ("r", leg), frame.cube[k], T**3
+        for j, joint in enumerate(relaxed.joints.tolist()):
+            for side, at in enumerate((start, end)):
+                V, A, zone = relaxed.velocity[j], relaxed.acceleration[j], relaxed.zones[at, j]
+                units = {"W": T * A, "p": zone / T, "g": T * V, "X": T * T * A}
+                for letter, unit in units.items():
+                    column = getattr(frame, letter)[k, j, side]
+                    positive = bool(checker.boxes["T", leg][0] > 0)
+                    if column >= 0 and np.ptp(frame.box[column]) > 0.0 and (letter != "p" or positive):
+                        yield (letter, leg, joint, side), column, unit
