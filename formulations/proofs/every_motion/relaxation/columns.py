@@ -126,18 +126,17 @@ class Columns:
         box[self.square] = np.stack([low**2 * DOWN, high**2 * UP], axis=1)
         box[self.v] = np.stack([self.v_low, self.v_high], axis=-1)
         box[self.a] = np.stack([self.a_low, self.a_high], axis=-1)
-        most = np.maximum(-self.a_low, self.a_high)
         for end in (0, 1):
-            reach = most[self.relaxed.legs[:, end]] * high[:, None] * UP
-            box[self.W[:, :, end]] = np.stack([-reach, reach], axis=-1)
+            at = relaxed.legs[:, end]
+            a = self.a_low[at], self.a_high[at]
+            box[self.W[:, :, end]] = _product(low[:, None], high[:, None], *a)
         there = relaxed.zones > 0.0
         box[self.e[there]] = np.stack([self.e_low[there], self.e_high[there]], axis=-1)
-        most = np.maximum(np.abs(self.e_low), np.abs(self.e_high))
         for end in (0, 1):
             at = relaxed.legs[:, end]
             k, j = np.nonzero(there[at] & long[:, None])
-            reach = most[at[k], j] / low[k] * UP**2
-            box[self.p[k, j, end]] = np.stack([-reach, reach], axis=-1)
+            e = self.e_low[at[k], j], self.e_high[at[k], j]
+            box[self.p[k, j, end]] = _product(1.0 / high[k] * DOWN, 1.0 / low[k] * UP, *e)
         self._fill_short_boxes(box)
         return box
 
@@ -145,14 +144,14 @@ class Columns:
         """Fill in the boxes of T v, T^2 a and T^3 of short segments."""
         low, high, short = self.low[self.short], self.high[self.short], self.short
         box[self.cube[short]] = np.stack([low**3 * DOWN, high**3 * UP], axis=1)
-        for columns, least, greatest, factor in (
-            (self.g, self.v_low, self.v_high, high),
-            (self.X, self.a_low, self.a_high, high**2 * UP),
+        square = low[:, None] ** 2 * DOWN, high[:, None] ** 2 * UP
+        for columns, least, greatest, power in (
+            (self.g, self.v_low, self.v_high, (low[:, None], high[:, None])),
+            (self.X, self.a_low, self.a_high, square),
         ):
-            most = np.maximum(-least, greatest)
             for end in (0, 1):
-                reach = most[self.relaxed.legs[short, end]] * factor[:, None] * UP
-                box[columns[short, :, end]] = np.stack([-reach, reach], axis=-1)
+                at = self.relaxed.legs[short, end]
+                box[columns[short, :, end]] = _product(*power, least[at], greatest[at])
 
     def _times_to_fade(self) -> tuple[Truths, Truths]:
         """Where an acceleration at a waypoint has the time to rise from 0 before it, or to fall to 0 after it.
@@ -175,6 +174,17 @@ class Columns:
         before = start | (lasting[:, None] >= needed)
         after = end | ((lasting[-1] - lasting)[:, None] >= needed)
         return within, np.stack([before, after])
+
+
+def _product(low: Array, high: Array, least: Array, greatest: Array) -> Array:
+    """Interval (..., 2) of the product of a number in [low, high], not below 0, and one in [least, greatest].
+
+    It must be as narrow as a checker's: rows in narrower boxes are others, and multipliers are good for the
+    rows for which they were found.
+    """
+    bottom, top = np.minimum(low * least, high * least), np.maximum(low * greatest, high * greatest)
+    wider = UP - 1.0
+    return np.stack([bottom - wider * np.abs(bottom), top + wider * np.abs(top)], axis=-1)
 
 
 def _forms(relaxed: RelaxedProblem, durations: Array) -> tuple[Truths, Truths]:
