@@ -1,8 +1,8 @@
 """A proof written for people: the inequalities that add up to it, each with its multiplier.
 
-Segments, joints and waypoints count from 1. T2 is the duration of segment 2; v5(2) and a5(2) are the
-velocity and the acceleration of joint 5 at waypoint 2, or v[elbow](2) and a[elbow](2) where joints have names.
-e5(2) is the offset of its position from the middle of the zone there.
+Segments, joints and waypoints count from 1. T2 is the duration of segment 2, T2..4 that of segments 2 to 4;
+v5(2) and a5(2) are the velocity and the acceleration of joint 5 at waypoint 2, or v[elbow](2) and a[elbow](2)
+where joints have names. e5(2) is the offset of its position from the middle of the zone there.
 """
 
 from __future__ import annotations
@@ -11,9 +11,9 @@ from typing import Any
 
 from compare.check_certificate.balls import Interval, R
 from compare.check_certificate.demands import ClaimedDemands
-from compare.check_certificate.families.every_motion.inequalities import Inequality
 from compare.check_certificate.families.every_motion.relaxation import Relaxation
-from compare.check_certificate.families.every_motion.setting import Variable
+from compare.check_certificate.families.every_motion.setting import PRODUCTS, LegName, Variable
+from compare.check_certificate.families.every_motion.terms import Inequality
 from compare.check_certificate.reading import number
 from compare.check_certificate.tool.words import chain_in_words, tool_in_words
 
@@ -31,6 +31,17 @@ KINDS = {
     "r": "room to stop",
     "d": "distance, with a piece at top speed",
     "k": "distance",
+    "S": "T^2 between its bounds",
+    "T": "T^2 is convex",
+    "C": "T^3 beside T and T^2",
+    "g": "T v between bounds",
+    "x": "T^2 a between bounds",
+    "j": "acceleration that can be gained",
+    "e": "the duration of several segments is their sum",
+    "V": "speed while the acceleration fades",
+    "R": "room to stop, times T",
+    "D": "distance, with a piece at top speed, times T",
+    "K": "distance, times T",
 }
 
 
@@ -120,7 +131,7 @@ def proof_in_words(checker: Relaxation) -> list[str]:
     lines = chain_in_words(checker.claim.demands())
     for raw in checker.sum:
         of = KINDS[str(raw[0])]
-        if str(raw[0]) in "wmvardk":
+        if str(raw[0]) in "wmvardkgxjVRDK":
             of += f", joint {checker.claim.joint_name(raw[1])}"
         lines.append(
             f"  {float(number(raw[-1])):.6g} x ({_inequality(checker.row(raw), checker)})  [{of}]"
@@ -135,15 +146,23 @@ def _inequality(row: Inequality, checker: Relaxation) -> str:
     return f"{text.removeprefix('+ ')} <= {float(row[1]):.6g}"
 
 
+def _number(k: LegName) -> str:
+    """The number of a segment or a waypoint, or of the first and the last segment of a leg over several."""
+    return f"{k + 1}" if isinstance(k, int) else f"{k[0] + 1}..{k[1]}"
+
+
 def _name(key: Variable, checker: Relaxation) -> str:
     """A variable as the module's docstring names it."""
-    kind, k = key[0], key[1] + 1
-    if kind in ("T", "u", "q"):
-        return {"T": f"T{k}", "u": f"(1/T{k})", "q": f"T{k}^2"}[kind]
+    kind, k = key[0], _number(key[1])
+    if kind in ("T", "u", "q", "r"):
+        return {"T": f"T{k}", "u": f"(1/T{k})", "q": f"T{k}^2", "r": f"T{k}^3"}[kind]
     j = checker.claim.joint_name(key[2])
     if checker.claim.names:
         j = f"[{j}]"
-    if kind in ("W", "p"):  # at the waypoint where the segment starts, or at the one where it ends
-        i = (checker.after[key[1]] if key[3] else key[1]) + 1
-        return f"T{k} a{j}({i})" if kind == "W" else f"e{j}({i})/T{k}"
+    if kind in PRODUCTS:  # at the waypoint where the segment starts, or at the one where it ends
+        i = checker.waypoint(key[1], key[3]) + 1
+        state = f"{PRODUCTS[kind][1]}{j}({i})"
+        return {
+            "W": f"T{k} {state}", "g": f"T{k} {state}", "X": f"T{k}^2 {state}", "p": f"{state}/T{k}",
+        }[kind]  # fmt: skip
     return f"{kind}{j}({k})"

@@ -14,7 +14,7 @@ import numpy as np
 from formulations.optima.free_form.mesh_refinement import MeshRefinement
 from formulations.optima.free_form.nlp.conditioned import ConditionedProblem
 
-_SHORT = 1e-2  # of the mean segment: a shorter one is tried without any time
+_SHORT = 0.1  # of the mean segment: a shorter one is tried without any time
 _TRIES = 3
 
 

@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from dataclasses import replace
+
 import numpy as np
 
 from formulations.problem.arrays import Array
@@ -22,6 +24,7 @@ from formulations.proofs.rest_to_rest import end_to_end_bound
 _TANGENTS = 4  # for each duration to begin with
 _LOOSER = 1e-2  # durations to begin with are looser, so that rows and not boxes carry the bound
 _GUESS = 2.0  # times from rest to rest: how long a motion under conditions may be, to begin with
+_SHORTEST = 1e-3  # of a greatest duration, where the first tangent is posed
 _TINY = 1e-9  # s, the least unit of a duration
 
 
@@ -75,16 +78,15 @@ def first_boxes(demands: Demands, relaxed: RelaxedProblem, boxes: Boxes | None) 
         least = relaxed.at_top_speed
         if demands.plain:
             least = np.maximum(least_durations(demands.problem)[relaxed.segments], least)
-        least = np.maximum(least * (1.0 - _LOOSER), relaxed.least)
-        boxes = Boxes.around(relaxed, least, relaxed.most)
+        least = np.maximum(least * (1.0 - _LOOSER), relaxed.least)[: relaxed.n_segments]
+        boxes = Boxes.around(relaxed, least, relaxed.most[: relaxed.n_segments])
     durations = boxes.durations.copy()
     # no duration is longer than what the least durations of the others leave
-    others = durations[:, 0].sum() - durations[:, 0]
-    durations[:, 1] = np.minimum(durations[:, 1], relaxed.horizon * (1.0 + 1e-12) - others)
+    segments = durations[: relaxed.n_segments]
+    others = segments[:, 0].sum() - segments[:, 0]
+    segments[:, 1] = np.minimum(segments[:, 1], relaxed.horizon * (1.0 + 1e-12) - others)
     empty = bool((durations[:, 0] > durations[:, 1]).any())
-    return propagate(
-        relaxed, clipped(relaxed, Boxes(durations, boxes.accelerations, boxes.offsets, empty))
-    )
+    return propagate(relaxed, clipped(relaxed, replace(boxes, durations=durations, empty=empty)))
 
 
 def tangents(durations: Array) -> Cuts:
@@ -99,5 +101,6 @@ def tangents(durations: Array) -> Cuts:
     -------
     Cuts
     """
-    at = np.geomspace(durations[:, 0], durations[:, 1], _TANGENTS)
+    low, high = durations.T
+    at = np.geomspace(np.where(low > 0.0, low, _SHORTEST * high), high, _TANGENTS)
     return Cuts.of(Kind.TANGENT, np.tile(np.arange(len(durations)), _TANGENTS), at.ravel())

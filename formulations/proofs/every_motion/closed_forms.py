@@ -16,7 +16,8 @@ import numpy as np
 
 from formulations.problem.arrays import Array
 from formulations.problem.problem import Problem
-from formulations.proofs.every_motion.relaxation.relaxed_problem import DOWN, RelaxedProblem, down
+from formulations.proofs.every_motion.relaxation.legs import down
+from formulations.proofs.every_motion.relaxation.relaxed_problem import DOWN, RelaxedProblem
 from formulations.proofs.rest_to_rest import end_to_end_bound, rest_to_rest
 
 SAFE = 1e-12
@@ -76,7 +77,7 @@ def bound_at_top_speed(relaxed: RelaxedProblem) -> tuple[float, int]:
     waypoint : int
         Among those kept: the one whose earliest arrival counts, or 0.
     """
-    least = np.maximum(relaxed.least, DOWN * relaxed.at_top_speed)
+    least = np.maximum(relaxed.least, DOWN * relaxed.at_top_speed)[: relaxed.n_segments]
     after = np.concatenate([np.cumsum(least[::-1])[::-1], [0.0]]) * down(len(least) + 1)
     sooner = np.maximum(relaxed.arrivals[:, 0], 0.0)  # no motion passes a waypoint before
     whole = np.where(after > 0.0, (sooner + after) * DOWN, sooner)
@@ -103,9 +104,9 @@ def typical_durations(relaxed: RelaxedProblem) -> Array:
             (rest_to_rest(float(d), *map(float, of)) for d, of in zip(row, limits, strict=True)),
             default=0.0,
         )
-        for row in np.abs(relaxed.displacements)
+        for row in np.abs(relaxed.displacements[: relaxed.n_segments])
     ]
-    return np.maximum(each, np.maximum(relaxed.least, relaxed.at_top_speed))
+    return np.maximum(each, np.maximum(relaxed.least, relaxed.at_top_speed)[: relaxed.n_segments])
 
 
 def _rest_to_rest(problem: Problem, j: int, distance: float) -> float:

@@ -12,8 +12,17 @@ units:
     ["a", joint, segment, sign, s1, s2, y]            (2)      ["r", joint, segment, end, sign, s1, s2, y]  (3)
     ["b", waypoint, y] earliest, ["l", waypoint, y] latest (5)    ["m", joint, segment, end, corner, y] (11)
 
-Events: ["N", "T", segment, side, rows] or ["N", "a" or "x", waypoint, joint, side, rows] narrows a box (of a
-duration, an acceleration, or a position in a zone, from the middle of the zone) from
+Where segments may take no time, ["S", ...], ["T", ...], ["C", ...], ["D", ...], ["K", ...] and ["R", ...] are
+the rows of the small letters times T, and these are posed besides:
+
+    ["g", joint, segment, end, corner, y], ["x", ...]  products T v and T^2 a, as "w"       (9)
+    ["V", joint, waypoint, sign, a, y]  at an acceleration (10)    ["j", joint, segment, sign, y]  (14)
+    ["e", segment, sign, y]  the time of a leg over several segments is that of the segments
+
+In place of a segment stands the pair of waypoints at the ends of a leg over several segments.
+
+Events: ["N", "T", segment, side, rows] or ["N", "a", "v" or "x", waypoint, joint, side, rows] narrows a box
+(of a duration, an acceleration, a velocity, or a position in a zone, from the middle of the zone) from
 below (side 0) or from above (side 1), with effect after the next ["P"], which also narrows the
 accelerations by (13), or ["R"], which does not. ["F", rows] ends with the bound, ["E", rows] with the
 proof that no motion is left, as does an event that leaves a box empty. Segments and joints have the
@@ -31,9 +40,15 @@ from formulations.deadlines import Deadline
 from formulations.problem.arrays import Array
 from formulations.proofs.every_motion.relaxation.boxes import Boxes
 from formulations.proofs.every_motion.relaxation.cuts import (
+    CRUISES,
+    FADES,
+    HULLS,
     PEAKS,
     PRODUCTS,
+    SPEED_PRODUCTS,
+    SQUARE_PRODUCTS,
     STOPS,
+    TANGENTS,
     ZONES,
     Cuts,
     Kind,
@@ -127,18 +142,19 @@ class _Events:
 
 def _first_boxes(relaxed: RelaxedProblem) -> Boxes:
     """From displacement over top speed, from what the others leave, and from the limits."""
-    least = np.maximum(DOWN * relaxed.at_top_speed, relaxed.least)
-    most = np.minimum(relaxed.most, relaxed.horizon * UP - (least.sum() - least))
+    least = np.maximum(DOWN * relaxed.at_top_speed, relaxed.least)[: relaxed.n_segments]
+    most = np.minimum(relaxed.most[: relaxed.n_segments], relaxed.horizon * UP - (least.sum() - least))
     return Boxes.around(relaxed, least, most)
 
 
 def _narrowed(frame: Frame, column: int) -> tuple[Event, float]:
     """The head of the event that narrows a variable, and the variable's unit."""
     relaxed = frame.relaxed
-    if column < frame.K:
-        return ["N", "T", int(relaxed.segments[column])], float(frame.typical[column])
+    if column < frame.L:
+        return ["N", "T", _leg(relaxed, column)], float(frame.typical[column])
     for name, columns, units in (
         ("a", frame.a, np.broadcast_to(relaxed.acceleration, frame.a.shape)),
+        ("v", frame.v, np.broadcast_to(relaxed.velocity, frame.v.shape)),
         ("x", frame.e, relaxed.zones),
     ):
         if (columns == column).any():
@@ -156,9 +172,18 @@ def _rows_of(program: LinearProgram, multipliers: Array) -> list[Event]:
     rows: list[Event] = []
     if y[0]:
         rows.append(["h", _hex(y[0] / relaxed.horizon)])
-    secants = np.flatnonzero(y[1 : frame.K + 1]).tolist()
-    rows += [["s", int(relaxed.segments[k]), _hex(y[k + 1] * unit[k])] for k in secants]
-    of_sums = y[frame.K + 1 : program.n_fixed].tolist()
+    first = 1
+    for name, which, units in (("s", frame.long, unit), ("S", frame.short, unit**-2)):
+        for k in np.flatnonzero(which).tolist():
+            if y[first]:
+                rows.append([name, _leg(relaxed, k), _hex(y[first] * units[k])])
+            first += 1
+    for k in range(frame.K, frame.L):
+        for sign, value in zip((1, -1), y[first : first + 2].tolist(), strict=True):
+            if value:
+                rows.append(["e", _leg(relaxed, k), sign, _hex(value / unit[k])])
+        first += 2
+    of_sums = y[first : program.n_fixed].tolist()
     for (waypoint, side), value in zip(frame.bounded_sums, of_sums, strict=True):
         if value:
             rows.append(["l" if side else "b", int(relaxed.waypoints[waypoint]), _hex(value)])
@@ -166,30 +191,58 @@ def _rows_of(program: LinearProgram, multipliers: Array) -> list[Event]:
     places = frame.place(cuts) * unit[cuts.segment]
     for i in np.flatnonzero(of_cuts).tolist():
         kind, k, j = Kind(int(cuts.kind[i])), int(cuts.segment[i]), int(cuts.joint[i])
-        segment, joint, sign = int(relaxed.segments[k]), int(relaxed.joints[j]), int(cuts.sign[i])
+        segment, joint, sign = _leg(relaxed, k), int(relaxed.joints[j]), int(cuts.sign[i])
         at, value = [_hex(x) for x in cuts.at[i]], float(of_cuts[i])
+        times_T = kind.times_T
+        reach = value / (float(unit[k]) if times_T else 1.0)
+        of_reach = _hex(reach / float(relaxed.velocity[j]))
         by_speed = _hex(value / float(relaxed.velocity[j]))
-        if kind == Kind.TANGENT:
-            rows.append(["t", segment, _hex(places[i]), _hex(value * unit[k])])
-        elif kind == Kind.HULL:
-            rows.append(["c", segment, _hex(places[i]), _hex(value / unit[k] ** 2)])
+        if kind in TANGENTS:
+            by_unit = value / places[i] ** 2 if times_T else value * unit[k]
+            rows.append(["T" if times_T else "t", segment, _hex(places[i]), _hex(by_unit)])
+        elif kind in HULLS:
+            by_unit = value / unit[k] ** (3 if times_T else 2)
+            rows.append(["C" if times_T else "c", segment, _hex(places[i]), _hex(by_unit)])
+        elif kind in SPEED_PRODUCTS:
+            by_both = _hex(value / (unit[k] * float(relaxed.velocity[j])))
+            rows.append(["g", joint, segment, kind.end, int(cuts.at[i, 0]), by_both])
+        elif kind in SQUARE_PRODUCTS:
+            by_both = _hex(value / (unit[k] ** 2 * float(relaxed.acceleration[j])))
+            rows.append(["x", joint, segment, kind.end, int(cuts.at[i, 0]), by_both])
+        elif kind in FADES:
+            waypoint = int(relaxed.waypoints[relaxed.legs[k, kind.end]])
+            along = _hex(sign * cuts.at[i, 0])
+            rows.append(["V", joint, waypoint, sign, along, by_speed])
         elif kind in PRODUCTS:
             by_both = _hex(value / (unit[k] * float(relaxed.acceleration[j])))
             rows.append(["w", joint, segment, kind.end, int(cuts.at[i, 0]), by_both])
         elif kind in ZONES:
-            zone = float(relaxed.zones[k + kind.end, j])
+            zone = float(relaxed.zones[relaxed.legs[k, kind.end], j])
             rows.append(
                 ["m", joint, segment, kind.end, int(cuts.at[i, 0]), _hex(value * unit[k] / zone)]
             )
         elif kind in PEAKS:
             rows.append(["v", joint, segment, kind.end, sign, at[0], by_speed])
         elif kind in STOPS:
-            rows.append(["r", joint, segment, kind.end, sign, *at[:2], by_speed])
+            name = "R" if times_T else "r"
+            rows.append([name, joint, segment, kind.end, sign, *at[:2], of_reach])
+        elif kind == Kind.CHANGE:
+            rows.append(["j", joint, segment, sign, _hex(value / float(relaxed.acceleration[j]))])
         elif kind == Kind.SPEED:
             rows.append(["a", joint, segment, sign, *at[:2], by_speed])
         else:
-            rows.append(["d" if kind == Kind.CRUISE else "k", joint, segment, sign, *at, by_speed])
+            name = "d" if kind in CRUISES else "k"
+            rows.append([name.upper() if times_T else name, joint, segment, sign, *at, of_reach])
     return rows
+
+
+def _leg(relaxed: RelaxedProblem, k: int) -> int | list[int]:
+    """The name of a leg: of a segment the number of its first waypoint, else the waypoints at both ends."""
+    return (
+        int(relaxed.segments[k])
+        if k < relaxed.n_segments
+        else relaxed.waypoints[relaxed.legs[k]].tolist()
+    )
 
 
 def _hex(x: float) -> str:

@@ -24,6 +24,7 @@ from formulations.proofs.every_motion.events import bound_with_events
 from formulations.proofs.every_motion.prices import price_limits
 from formulations.proofs.every_motion.relaxation.boxes import Boxes
 from formulations.proofs.every_motion.relaxation.cuts import Cuts
+from formulations.proofs.every_motion.relaxation.kept_waypoints import idle_waypoints
 from formulations.proofs.every_motion.relaxation.linear_program import (
     LinearProgram,
     LPSolution,
@@ -40,6 +41,7 @@ _AHEAD = 0.1  # of the bound: how far above it the horizon is then
 ROUNDS = 100  # of cuts
 _NEAR = 1e-2  # of the bound: how far above it the horizon of its certificate is at most
 _FARTHEST = 1e3  # displacements at top speed: where the search ends if no motion is left
+_SHORTEST = 1e-6  # of the horizon: the least unit of a duration that may be 0
 _BELOW = 1.0 - 2.0**-50  # more than the rounding of one sum
 _STALLED = 0.05  # of the way to the horizon: a step that gains less is no progress
 
@@ -86,7 +88,7 @@ class HorizonSearch:
         """
         self.demands, self.progress = demands, progress
         self.problem = problem = demands.problem
-        self.without: frozenset[int] = frozenset()
+        self.without = self.idle = idle_waypoints(demands)
         self.plain = demands.plain
         self.bounds, self.typical, self.slowest = first_bounds(demands)
         self.cuts = Cuts.none()
@@ -133,14 +135,9 @@ class HorizonSearch:
         if self.plain and not self.problem.moving_joints:
             self.hunt.upper = 0.0
             return Ending(BoundStatus.PROVED)
-        if not self.seconds > 0.0:
-            too_small = "the displacements are too small for floats"
-            return Ending(
-                BoundStatus.SIMPLE, too_small if self.plain else "nothing forces it to take time"
-            )
+        if self.plain and not self.seconds > 0.0:
+            return Ending(BoundStatus.SIMPLE, "the displacements are too small for floats")
         relaxed = self.relaxed(self.known)
-        if not (np.maximum(relaxed.least, relaxed.at_top_speed) > 0.0).all():
-            return Ending(BoundStatus.SIMPLE, "its only two waypoints can coincide")
         if relaxed.cyclic and len(relaxed.least) < 2:
             return Ending(BoundStatus.SIMPLE, "all waypoints of the cycle can coincide")
         if not len(relaxed.joints):
@@ -184,6 +181,8 @@ class HorizonSearch:
             ending, boxes = self._within(horizon, boxes, gap, deadline)
             if ending is not None:
                 return ending
+            if not self.seconds > 0.0:
+                return Ending(BoundStatus.SIMPLE, "nothing forces it to take time")
             if horizon > self.seconds * (1.0 + _FAR):
                 ahead = _AHEAD
                 continue
@@ -222,7 +221,9 @@ class HorizonSearch:
                 return _out_of_time(deadline), boxes
             if solution.status != LPStatus.OPTIMAL:
                 return Ending(BoundStatus.SOLVER_FAILED, _why(solution)), boxes
-            typical = solution.x[frame.T] * typical
+            typical = (solution.x[frame.T] * frame.typical)[: relaxed.n_segments]
+            short = frame.short[: relaxed.n_segments]
+            typical[short] = np.maximum(typical[short], _SHORTEST * horizon)
             self.typical[relaxed.segments], self.cuts = typical, program.cuts
             if self.plain:
                 of_bound = {"bound": self.seconds, "gap": gap}
@@ -318,7 +319,8 @@ class HorizonSearch:
         self.rows = len(program.rows)
         if bound > self.bounds.get("relaxation", 0.0):
             self.durations = np.zeros(problem.n_segments)
-            self.durations[relaxed.segments] = solution.x[program.frame.T] * program.frame.typical
+            found = solution.x[program.frame.T] * program.frame.typical
+            self.durations[relaxed.segments] = found[: relaxed.n_segments]
             self.savings = np.zeros((3, problem.n_segments, problem.dof))
             self.savings[:, relaxed.segments[:, None], relaxed.joints] = price_limits(
                 self.demands, program, solution

@@ -15,7 +15,9 @@ import numpy as np
 from formulations.problem.arrays import Array
 from formulations.problem.demands import Demands
 from formulations.proofs.every_motion.relaxation.cuts import (
+    CRUISES,
     DISTANCES,
+    FADES,
     PEAKS,
     PRODUCTS,
     STOPS,
@@ -51,13 +53,14 @@ def price_limits(demands: Demands, program: LinearProgram, solution: LPSolution)
         By velocity, acceleration and jerk limits; segments and joints of the relaxed problem.
     """
     frame, x = program.frame, solution.x
-    found = np.zeros((3, frame.K, frame.n))
+    found = np.zeros((3, frame.L, frame.n))
     y = np.maximum(solution.multipliers[program.n_fixed :], 0.0)
     for kind in np.unique(program.cuts.kind[y > 0.0]):
         which = (program.cuts.kind == kind) & (y > 0.0)
         cuts = program.cuts[which]
         for quantity, share in enumerate(_derivatives(frame, Kind(int(kind)), cuts, x)):
             np.add.at(found[quantity], (cuts.segment, cuts.joint), y[which] * share)
+    found = _of_segments(frame, found, x)
     reduced = frame.cost + program.rows.matrix.T @ np.maximum(solution.multipliers, 0.0)
     for quantity, columns in ((0, frame.v), (1, frame.a)):
         low, high = np.moveaxis(frame.box[columns], -1, 0)
@@ -67,6 +70,17 @@ def price_limits(demands: Demands, program: LinearProgram, solution: LPSolution)
         found[quantity, :-1] += 0.5 * price
         found[quantity, 1:] += 0.5 * price
     return _of_own_limits(demands, frame, found)
+
+
+def _of_segments(frame: Frame, found: Array, x: Array) -> Array:
+    """What is saved on the segments, (3, K, n): that on a leg over several is shared by their durations."""
+    T = x[frame.T] * frame.typical
+    own = found[:, : frame.K].copy()
+    for leg in range(frame.K, frame.L):
+        i, k = frame.relaxed.legs[leg]
+        shares = T[i:k] / max(float(T[i:k].sum()), 1e-300)
+        own[:, i:k] += shares[:, None] * found[:, leg, None]
+    return own
 
 
 def _of_own_limits(demands: Demands, frame: Frame, found: Array) -> Array:
@@ -87,17 +101,19 @@ def _derivatives(frame: Frame, kind: Kind, cuts: Cuts, x: Array) -> tuple[Array,
     k, j = cuts.segment, cuts.joint
     none, with_it = np.zeros(len(k)), (cuts.sign > 0.0).astype(np.intp)
     if kind in (*DISTANCES, *STOPS, Kind.SPEED):
-        A, against = (frame.ramps[k, j, side] * x[frame.T[k]] for side in (with_it, 1 - with_it))
-        if kind == Kind.STOP_AT_END:  # with time turned the joint brakes the other way
+        T, square = (x[columns[k]] for columns in frame.parts[kind.times_T][:2])
+        A, against = (frame.ramps[k, j, side] * T for side in (with_it, 1 - with_it))
+        if kind in STOPS and kind.end:  # with time turned the joint brakes the other way
             A, against = against, A
         c_V, c_A, c_against, c_J = _limit_coefficients(kind, cuts.at)
-        J = frame.bend[k, j] * x[frame.square[k]]
-        return c_V * frame.top[k, j, with_it], c_A * A + c_against * against, c_J * J
-    if kind in PEAKS:
+        J = frame.bend[k, j] * square
+        by_V = c_V * frame.top[k, j, with_it] * (x[frame.T[k]] if kind.times_T else 1.0)
+        return by_V, c_A * A + c_against * against, c_J * J
+    if kind in (*PEAKS, *FADES):
         top = frame.peak(kind.end, cuts)[0]
-        return top, none, top - cuts.sign * x[frame.v[k + kind.end, j]]
+        return top, none, top - cuts.sign * x[frame.v[frame.relaxed.legs[k, kind.end], j]]
     if kind in PRODUCTS:
-        t, e, side = frame.corner(cuts, kind.end)
+        t, e, side = frame.corner(kind, cuts)
         return none, np.where(np.abs(e) >= 1.0, side * e * (t - x[frame.T[k]]), 0.0), none
     return none, none, none
 
@@ -105,7 +121,7 @@ def _derivatives(frame: Frame, kind: Kind, cuts: Cuts, x: Array) -> tuple[Array,
 def _limit_coefficients(kind: Kind, at: Array) -> tuple[Array, Array, Array, Array]:
     """Coefficients of V, of A T with and against the motion, and of J T^2 in (1), (2) or (3), each (m,)."""
     if kind in DISTANCES:
-        cruises = kind == Kind.CRUISE
+        cruises = kind in CRUISES
         coefficients = distance_coefficients(at, cruises)
         return coefficients[4], *arc_coefficients(at, cruises), coefficients[6]
     none = np.zeros(len(at))

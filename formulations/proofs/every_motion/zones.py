@@ -39,13 +39,13 @@ class ZoneSearch(HorizonSearch):
         Ending
         """
         self._leave_zones_out(gap, deadline)
-        if not self.without:
+        if self.without == self.idle:
             return super().approach(gap, deadline)
         ending = super().approach(gap, deadline.within(_SHARE * deadline.left))
         if self.met(gap) or deadline.over:
             return ending
         proved, state = self.seconds, (self.without, self.cuts)
-        self.without, self.cuts = frozenset(), Cuts.none()
+        self.without, self.cuts = self.idle, Cuts.none()
         ending = super().approach(gap, deadline)
         if self.seconds <= proved:
             self.without, self.cuts = state
@@ -53,15 +53,16 @@ class ZoneSearch(HorizonSearch):
 
     def _leave_zones_out(self, gap: float, deadline: Deadline) -> None:
         inner = self.demands.waypoints[1:-1]
-        zones = (np.flatnonzero((inner[..., 0] < inner[..., 1]).any(axis=1)) + 1).tolist()
+        wide = set((np.flatnonzero((inner[..., 0] < inner[..., 1]).any(axis=1)) + 1).tolist())
+        zones = sorted(wide - self.idle)
         if len(zones) > _FEW:
             return
         best = self._first_bound(deadline)
-        self.without = frozenset(zones)
+        self.without = self.idle | frozenset(zones)
         found = self._first_bound(deadline)
         if found >= best:
             return
-        self.without = frozenset()
+        self.without = self.idle
         for waypoint in zones:
             if deadline.over or (self.upper is not None and self.upper <= best * (1.0 + gap)):
                 return
@@ -74,8 +75,6 @@ class ZoneSearch(HorizonSearch):
     def _first_bound(self, deadline: Deadline) -> float:
         """The bound in the first boxes, for the waypoints that are not left out [s]."""
         relaxed = self.relaxed(self.known)
-        if not (np.maximum(relaxed.least, relaxed.at_top_speed) > 0.0).all():
-            return 0.0
         boxes = first_boxes(self.demands, relaxed, None)
         if boxes.empty:
             return self.known

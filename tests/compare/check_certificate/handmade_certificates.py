@@ -18,20 +18,31 @@ def rows_everywhere(oracle: Oracle, rng: np.random.Generator, many: int = 30) ->
         early, late = oracle.demands["passages"][i]
         rows += [["b", i]] * bool(early > 0.0) + [["l", i]] * bool(np.isfinite(late))
     for p, i in oracle.after.items():
+        rows += [["e", p, sign] for sign in (1, -1) if p not in oracle.ks]
         lo, hi = oracle.box["T", p]
-        places = [float(t) for t in np.geomspace(lo, hi, 12)]
-        rows += [["s", p], *(["t", p, t] for t in places), *(["c", p, t] for t in places[::2])]
+        places = [float(t) for t in np.linspace(lo, hi, 12)]
+        rows += [["S", p], *(["T", p, t] for t in places[1:]), *(["C", p, t] for t in places[::2])]
+        if lo > 0.0:
+            places = [float(t) for t in np.geomspace(lo, hi, 12)]
+            rows += [["s", p], *(["t", p, t] for t in places), *(["c", p, t] for t in places[::2])]
         for j in range(oracle.dof):
-            for end, at in ((0, p), (1, i)):
-                for kind, there in (("w", oracle.jerky[j]), ("m", oracle.w[at, j] > 0.0)):
+            slopes = oracle.J_most[j] * np.linspace(-0.5, 0.5, 9) if oracle.jerky[j] else ()
+            rows += [["j", j, p, sign] for sign in (1, -1) if oracle.jerky[j]]
+            for end, at in ((0, oracle.start[p]), (1, i)):
+                for kind, there in (
+                    ("w", oracle.jerky[j]),
+                    ("x", oracle.jerky[j]),
+                    ("g", oracle.moves[j]),
+                    ("m", oracle.w[at, j] > 0.0 and lo > 0.0),
+                ):
                     rows += [[kind, j, p, end, corner] for corner in range(4) if there]
-                slopes = oracle.J_most[j] * np.linspace(-0.5, 0.5, 9) if oracle.jerky[j] else ()
                 for sign, c in product((-1, 1), map(float, slopes)):
                     if oracle.peak(at, j, sign * c > 0.0) is not None:
                         rows.append(["v", j, p, end, sign, c])
+                        rows.append(["V", j, at, sign, sign * c])
     for _ in range(many * len(oracle.ks) * oracle.dof * 4):
         raw = oracle.random_row(rng)
-        if raw is not None and raw[0] in "ardk":
+        if raw is not None and raw[0] in "ardkRDK":
             rows.append(raw)
     return rows
 
@@ -78,7 +89,8 @@ def certificate(
 
 def with_multiplier(raw: list[Any], y: float) -> list[Any]:
     """A row as a certificate writes it."""
-    return [*(x.hex() if isinstance(x, float) else x for x in raw), float(y).hex()]
+    texts = (list(x) if isinstance(x, tuple) else x.hex() if isinstance(x, float) else x for x in raw)
+    return [*texts, float(y).hex()]
 
 
 def solved(oracle: Oracle, raws: list[Any], cost: dict[Key, float] | None = None) -> Any:
@@ -110,7 +122,8 @@ def _program(oracle: Oracle, raws: list[Any]) -> Any:
     for at, raw in enumerate(raws):
         row, b[at] = oracle.row(raw)
         for key, value in row.items():
-            A[at, keys[key]] = value
+            if value:
+                A[at, keys[key]] = value
     return A.tocsr(), b, list(keys)
 
 

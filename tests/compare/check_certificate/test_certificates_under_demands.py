@@ -8,8 +8,9 @@ from typing import Any
 
 import numpy as np
 import pytest
-from demanded_motions import ENDS, Scenario, scenario
+from demanded_motions import ENDS, Scenario
 from handmade_certificates import certificate, contradiction, rows_everywhere, solved
+from meeting_zones import drawn
 from relaxation_oracle import Oracle
 
 from compare.check_certificate.answers import BadInput, Refused
@@ -19,15 +20,15 @@ MARGIN = 1.0 - 1e-7
 
 
 def proved(ends: str, seed: int) -> tuple[Scenario, dict[str, Any]] | None:
-    """A motion and the certificate of the best bound that some rows prove; None where there is none."""
+    """A motion and the certificate of the best bound that some rows prove; None where that is 0."""
     rng = np.random.default_rng(seed)
-    made = scenario(rng, ends, n=3, times="some" if seed % 2 else "none")
+    made = drawn(rng, ends, n=3, times="some" if seed % 2 else "none")
     horizon = made.arrivals[-1] * 1.01
     oracle = Oracle(made.demands, horizon)
-    if oracle.none:
-        return None
     least, rows = solved(oracle, rows_everywhere(oracle, rng))
     seconds = (least + sum(oracle.waits.values())) * MARGIN
+    if not seconds > 0.0:
+        return None
     return made, certificate(made.demands, seconds, horizon, [["F", rows]])
 
 
@@ -65,24 +66,26 @@ def test_narrower_boxes_prove_more(ends: str, letter: str) -> None:
     more = 0
     for seed in range(5):
         rng = np.random.default_rng(seed)
-        made = scenario(rng, ends, n=3, times="none")
+        made = drawn(rng, ends, n=3, times="none")
         horizon = made.arrivals[-1] * 1.01
         oracle = Oracle(made.demands, horizon)
-        if oracle.none:
-            continue
         rows = rows_everywhere(oracle, rng)
         first, _ = solved(oracle, rows)
         events: list[Any] = []
         narrowed = dict(oracle.box)
-        for key in [key for key in oracle.box if key[0] in "Tae" and np.ptp(oracle.box[key]) > 0.0]:
-            name = ["x" if key[0] == "e" else key[0], *key[1:]]
+        for key in [key for key in oracle.box if key[0] in "Tvae" and np.ptp(oracle.box[key]) > 0.0]:
+            name = [
+                "x" if key[0] == "e" else key[0],
+                *(list(x) if isinstance(x, tuple) else x for x in key[1:]),
+            ]
             ends_of_box = list(narrowed[key])
             for side in (0, 1):
                 sign = 1.0 - 2.0 * side
                 least, used = solved(oracle, rows, {key: sign})
                 events.append(["N", *name, side, used])
                 ends_of_box[side] = sign * (least - 1e-9)
-            narrowed[key] = (min(ends_of_box), max(ends_of_box))
+            # both ends are beyond what is proved by a little, but not outside the box before
+            narrowed[key] = tuple(sorted(np.clip(ends_of_box, *narrowed[key])))
         oracle.narrow(narrowed)
         second, used = solved(oracle, rows_everywhere(oracle, rng))
         seconds = (second + sum(oracle.waits.values())) * MARGIN
@@ -110,7 +113,7 @@ def ends_at_rest(oracle: Oracle) -> None:
     for key in oracle.box:
         if key[0] in "va" and key[1] in (0, oracle.n):
             oracle.box[key] = (0.0, 0.0)
-        if key[0] == "W" and (key[1] if key[3] == 0 else oracle.after[key[1]]) in (0, oracle.n):
+        if key[0] in "WgX" and (oracle.after if key[3] else oracle.start)[key[1]] in (0, oracle.n):
             oracle.box[key] = (0.0, 0.0)
 
 
@@ -151,11 +154,9 @@ def test_a_false_proof_is_refused(fault: str) -> None:
     false = 0
     for seed in range(25):
         rng = np.random.default_rng(seed)
-        made = scenario(rng, ends, n=3, times="all")
+        made = drawn(rng, ends, n=3, times="all")
         horizon = made.arrivals[-1] * 1.001
         oracle = Oracle(made.demands, horizon, wrong_peaks=fault if fault in ("free", "short") else "")
-        if oracle.none:
-            continue
         spoil(oracle)
         excess, rows = contradiction(oracle, rows_everywhere(oracle, rng, 10))
         if excess > 1e-5:

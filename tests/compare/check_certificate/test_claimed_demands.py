@@ -60,27 +60,22 @@ def test_one_row_proves_a_window() -> None:
         verify(certified)
 
 
-def test_a_waypoint_is_left_out_where_zones_meet() -> None:
-    checker = Relaxation(
-        Claim(
-            data(
-                Conditions(
-                    tolerance={1: np.array([0.7])},
-                    segment_limits={
-                        1: Limits.of(velocity=[[-0.5, 3.0]], acceleration=2.0, jerk=5.0, dof=1)
-                    },
-                )
-            )
+def test_where_zones_meet_a_leg_may_take_no_time() -> None:
+    zone = data(
+        Conditions(
+            tolerance={1: np.array([0.7])},
+            segment_limits={1: Limits.of(velocity=[[-0.5, 3.0]], acceleration=2.0, jerk=5.0, dof=1)},
         )
     )
-    assert checker.kept == [0, 2]
-    assert [float(x) for x in checker.V[0][0]] == [1.0, 3.0]
-    assert float(checker.legs[0].jerk[0]) == 9.0
-    # a least time of 0.1 s keeps it
-    kept = Relaxation(
-        Claim(data(Conditions(tolerance={1: np.array([0.7])}, segment_times={0: (0.1, inf)})))
-    )
-    assert kept.kept == [0, 1, 2]
+    checker = Relaxation(Claim(zone))
+    assert checker.kept == [0, 1, 2]
+    assert float(checker.boxes["T", 0][0]) == 0.0
+    # one leg that is left, or one over both: the loosest limits of both segments
+    whole = Relaxation(Claim({**zone, "without": [1]}))
+    for of_both, k in ((whole, 0), (checker, checker.span(0, 2))):
+        assert [float(x) for x in of_both.V[k][0]] == [1.0, 3.0]
+        assert float(of_both.legs[k].jerk[0]) == 9.0
+        assert [float(x) for x in of_both.boxes["T", k]] == pytest.approx([1.6 / 3.0, 9.0])
 
 
 def test_a_proof_may_leave_out_waypoints() -> None:
@@ -98,7 +93,7 @@ def test_a_proof_may_leave_out_waypoints() -> None:
 
 def test_nothing_that_forces_time_proves_nothing() -> None:
     found = data(Conditions(tolerance={2: np.array([1.7])}))
-    with pytest.raises(Refused, match="nothing forces time"):
+    with pytest.raises(Refused, match="not above the bound"):
         verify(found)
 
 

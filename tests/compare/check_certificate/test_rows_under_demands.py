@@ -6,14 +6,15 @@ from collections.abc import Callable
 
 import numpy as np
 import pytest
-from demanded_motions import ENDS, Scenario, scenario
+from demanded_motions import ENDS, Scenario
 from handmade_certificates import certificate, with_multiplier
-from relaxation_oracle import Oracle
+from meeting_zones import drawn
+from relaxation_oracle import KINDS, Oracle
 
 from compare.check_certificate.claim import Claim
 from compare.check_certificate.families.every_motion.relaxation import Relaxation
 
-ROWS = 300
+ROWS = 500
 
 
 def some(rng: np.random.Generator, made: Scenario) -> frozenset[int]:
@@ -32,11 +33,9 @@ def excesses(
     worst: dict[str, float] = {}
     for seed in seeds:
         rng = np.random.default_rng(seed)
-        made = scenario(rng, ends, n=int(rng.integers(2, 6)))
+        made = drawn(rng, ends)
         horizon = made.arrivals[-1] * float(rng.choice([1.0 + 1e-9, 1.5]))
         oracle = Oracle(made.demands, horizon, without=some(rng, made), **options)
-        if oracle.none:
-            continue
         values = oracle.values(made)
         if spoil is not None:
             spoil(oracle)
@@ -50,26 +49,28 @@ def excesses(
                 excess = oracle.excess(raw, values)
                 worst[raw[0]] = max(worst.get(raw[0], -np.inf), excess)
                 if not options and spoil is None:
-                    assert excess < 1e-8, (seed, raw, excess)
+                    assert excess < 1e-7, (seed, raw, excess)
     return worst
 
 
 @pytest.mark.parametrize("ends", ENDS)
 def test_every_row_holds_for_every_motion_that_keeps_the_demands(ends: str) -> None:
     worst = excesses(ends, range(25))
-    assert set(worst) >= set("hblstcwmardk")
+    assert set(worst) >= set(KINDS) - {"v", "V"}
 
 
 @pytest.mark.parametrize("wrong", ["free", "short"])
 def test_a_peak_row_where_the_acceleration_need_not_fade_is_violated(wrong: str) -> None:
-    assert excesses("free", range(40), wrong_peaks=wrong)["v"] > 1e-3
+    worst = excesses("free", range(40), wrong_peaks=wrong)
+    assert worst["v"] > 1e-3
+    assert worst["V"] > 1e-3
 
 
 def tightest_limits(oracle: Oracle) -> None:
     """Between waypoints that are kept, take the tightest limits of all segments in place of the loosest."""
     for p, i in oracle.after.items():
         for name, limits in (("velocity", oracle.V), ("acceleration", oracle.A)):
-            part = oracle.demands[name][p:i]
+            part = oracle.demands[name][oracle.start[p] : i]
             tight = np.stack([part[..., 0].max(axis=0), part[..., 1].min(axis=0)], axis=1)
             limits[p] = np.where(np.isfinite(tight), tight, limits[p])
 
@@ -92,7 +93,12 @@ def no_waits(oracle: Oracle) -> None:
 
 @pytest.mark.parametrize(
     ("spoil", "kinds"),
-    [(tightest_limits, "dka"), (sides_swapped, "dkar"), (zones_shut, "dkr"), (no_waits, "b")],
+    [
+        (tightest_limits, "dkaDK"),
+        (sides_swapped, "dkarDKR"),
+        (zones_shut, "dkrDKR"),
+        (no_waits, "b"),
+    ],
 )
 def test_wrong_rows_are_noticed(spoil: Callable[[Oracle], None], kinds: str) -> None:
     worst = excesses("given", range(40), spoil)
@@ -104,21 +110,19 @@ def test_the_checker_builds_the_same_boxes_and_rows(ends: str) -> None:
     kinds: set[str] = set()
     for seed in range(12):
         rng = np.random.default_rng(100 + seed)
-        made = scenario(rng, ends, n=int(rng.integers(2, 6)))
+        made = drawn(rng, ends)
         horizon = made.arrivals[-1] * float(rng.choice([1.0 + 1e-9, 1.5]))
         without = some(rng, made)
         oracle = Oracle(made.demands, horizon, without=without)
-        if oracle.none:
-            continue
         checker = Relaxation(Claim(certificate(made.demands, 1e-9, horizon, [], without)))
         assert checker.kept == oracle.kept
+        assert {checker.span(*p) for p in oracle.after if p not in oracle.ks} == set(checker.spans)
         assert not checker.void
         for key, box in oracle.box.items():
-            if key[0] in "TuqWvaep" and (key[0] not in "ep" or box[1] > box[0]):
-                if key[0] == "W" and not oracle.jerky[key[2]]:
-                    continue
+            if key[0] not in "ep" or box[1] > box[0]:
                 found = [float(x) for x in checker.box(key)]
                 assert found == pytest.approx(list(box), rel=1e-9, abs=1e-12), (seed, key)
+        assert checker.spans or len(oracle.ks) < 3 or checker.waits
         for _ in range(ROWS):
             raw = oracle.random_row(rng)
             if raw is None:
@@ -131,7 +135,7 @@ def test_the_checker_builds_the_same_boxes_and_rows(ends: str) -> None:
                 assert float(row.get(key, 0.0)) == pytest.approx(
                     mine.get(key, 0.0), rel=1e-9, abs=1e-9 * size
                 ), (seed, raw, key)
-    assert kinds >= set("hblstcwmardk")
+    assert kinds >= set(KINDS) - {"v", "V"}
 
 
 @pytest.mark.parametrize("ends", ENDS)
@@ -140,11 +144,9 @@ def test_narrower_accelerations_hold_every_motion(ends: str) -> None:
     narrowed = 0
     for seed in range(15):
         rng = np.random.default_rng(200 + seed)
-        made = scenario(rng, ends, n=int(rng.integers(2, 6)), times="all")
+        made = drawn(rng, ends, times="all")
         horizon = made.arrivals[-1] * 1.01
         oracle = Oracle(made.demands, horizon)
-        if oracle.none:
-            continue
         checker = Relaxation(Claim(certificate(made.demands, 1e-9, horizon, [["P"], ["F", []]])))
         first, values = checker.boxes, oracle.values(made)
         checker.replay()

@@ -1,9 +1,9 @@
-"""The course of a motion: the waypoints between which time passes, and the limits between them.
+"""The course of a motion: the waypoints that a proof keeps, and the limits between them.
 
-Where the boxes of two waypoints meet, a motion may be at both at one time, and 1 / T has no bound. Such a
-waypoint is left out, which allows more motions. A proof may leave out others too. What lies between two
-waypoints that are kept is a leg, with the number of the waypoint where it starts. The loosest limits of its
-segments hold on all of it, and waits inside it are a part of its time.
+A proof may leave out inner waypoints, which allows more motions. What lies between two waypoints that are
+kept is a leg, with the number of the waypoint where it starts. The loosest limits of its segments hold on
+all of it, and waits inside it are a part of its time. Where the zones of two waypoints meet, a motion may be
+at both at one time: the leg between them may take no time.
 """
 
 from __future__ import annotations
@@ -12,7 +12,6 @@ from dataclasses import dataclass
 from itertools import pairwise
 from typing import Any
 
-from compare.check_certificate.answers import need
 from compare.check_certificate.balls import Interval, R, least, most
 from compare.check_certificate.demands import ClaimedDemands
 
@@ -34,7 +33,7 @@ class Leg:
     times: Interval
 
 
-def course(demands: ClaimedDemands, without: frozenset[int]) -> dict[int, Leg]:
+def course(demands: ClaimedDemands, without: frozenset[int]) -> list[Leg]:
     """Find the legs of every motion that keeps some demands.
 
     Parameters
@@ -42,15 +41,16 @@ def course(demands: ClaimedDemands, without: frozenset[int]) -> dict[int, Leg]:
     demands : ClaimedDemands
         Waypoints, limits and times.
     without : frozenset of int
-        Inner waypoints that are left out in any case.
+        Inner waypoints that are left out.
 
     Returns
     -------
-    dict of int to Leg
-        In order, by the waypoint where each starts. Refuses the certificate where nothing takes time.
+    list of Leg
+        In order.
     """
-    kept = _of_points(demands) if demands.plain else _of_zones(demands, without)
-    return {start: _leg(demands, start, end) for start, end in pairwise(kept)}
+    everywhere = range(len(demands.durations) + 1)
+    kept = _of_points(demands) if demands.plain else [i for i in everywhere if i not in without]
+    return [leg_between(demands, start, end) for start, end in pairwise(kept)]
 
 
 def _of_points(demands: ClaimedDemands) -> list[int]:
@@ -64,40 +64,21 @@ def _of_points(demands: ClaimedDemands) -> list[int]:
     return [*moving, moving[-1] + 1]
 
 
-def _of_zones(demands: ClaimedDemands, without: frozenset[int]) -> list[int]:
-    """The first waypoint, those that take time after the last one kept, and the last waypoint."""
-    n = len(demands.durations)
-    kept, since = [0], True  # since: whether none of the times after the last one kept forces time
-    for i in range(1, n):
-        since = since and bool(demands.durations[i - 1][0] == 0)
-        if i - 1 > kept[-1]:
-            since = since and bool(demands.waits[i - 1] == 0)
-        if i not in without and not (since and _meet(demands, kept[-1], i)):
-            kept.append(i)
-            since = True
-    while _at_once(demands, kept[-1], n):
-        need(len(kept) > 1, "nothing forces time between the start and the end")
-        kept.pop()
-    return [*kept, n]
+def leg_between(demands: ClaimedDemands, start: int, end: int) -> Leg:
+    """Take the loosest limits of the segments from one waypoint to another.
 
+    Parameters
+    ----------
+    demands : ClaimedDemands
+        Limits and times.
+    start, end : int
+        The waypoints.
 
-def _at_once(demands: ClaimedDemands, p: int, i: int) -> bool:
-    """Whether a motion may leave p and arrive at i at one time."""
-    return (
-        all(low == 0 for low, _ in demands.durations[p:i])
-        and all(wait == 0 for wait in demands.waits[p + 1 : i])
-        and _meet(demands, p, i)
-    )
-
-
-def _meet(demands: ClaimedDemands, p: int, i: int) -> bool:
-    """Whether the boxes of two waypoints have a common point; their ends are exact numbers."""
-    pairs = zip(demands.waypoints[p], demands.waypoints[i], strict=True)
-    return all(bool(a <= d) and bool(c <= b) for (a, b), (c, d) in pairs)
-
-
-def _leg(demands: ClaimedDemands, start: int, end: int) -> Leg:
-    """The loosest limits of the segments from one waypoint to another."""
+    Returns
+    -------
+    Leg
+        Waits at waypoints between them are a part of its time.
+    """
     part = slice(start, end)
     between = demands.waits[start + 1 : end]
     shortest = sum((lo for lo, _ in demands.durations[part]), sum(between, R(0)))

@@ -1,18 +1,25 @@
 """Inequalities that every motion keeps, built anew.
 
-Variables as of ``setting``; s1 .. s6 ascend in [0, 1]. T is in [l, h], a in an interval with an end f, and e
-too. The letters V and A mean the limits in the direction of the sign of a row, or against it:
+Variables as of ``setting``; s1 .. s6 ascend in [0, 1]. T is in [l, h], and of each product the factors are in
+intervals with ends t and f. The letters V and A mean the limits in the direction of the sign of a row, or
+against it:
 
     h   sum T <= H - waits                      b, l   an arrival is not too early, not too late
-    s   u <= 1 / l + 1 / h - T / (l h)          t   u >= 2 / t - T / t^2
+    s   u <= 1 / l + 1 / h - T / (l h)          S      q <= (l + h) T - l h
+    t   u >= 2 / t - T / t^2                    T      q >= 2 t T - t^2
     c   q <= (h + 2 t) T + h t^2 u - 2 h t - t^2
-    w   (T - bound) (a - f) of one sign         m   (u - bound) (e - f) of one sign
+    C   r <= (h + 2 t) q - (2 h t + t^2) T + h t^2
+    w   (T - t) (a - f) of one sign             m      (u - t) (e - f) of one sign
+    g   (T - t) (v - f) of one sign             x      (q - t) (a - f) of one sign
+    j   |a1 - a0| <= J T                        e      T of a leg over several others is their sum
     v   |v| + (2 c W - c^2 q) / (2 J) <= V      where the acceleration has to fade
+    V   |v| + (2 f a - f^2) / (2 J) <= V        where it has to
     a   v1 - v0 <= s1 W0 + (1 - s2) W1 + (s2 - s1) A T + (s1^2 + (1 - s2)^2) / 2 J q
     r   s2 v0 + g W0 + p <= r u + (s2 - s1)^2 / 2 A T + .. J q,     r from c to a position limit
     d   (c1 - c0) u + p1 - p0 <= z v0 + .. W0 + (1 - y) v1 - .. W1 + (y - z) V + m A T + n A T + g J q
 
-with the coefficients of ``_stop`` and ``_distance``; k is d without a piece at top speed.
+with the coefficients of ``_stop`` and ``_distance``; k is d without a piece at top speed. Those that divide
+by T hold where l > 0. R, D and K are r, d and k times T, without a quotient, so T may be 0.
 """
 
 from __future__ import annotations
@@ -22,14 +29,17 @@ from typing import Any
 
 from compare.check_certificate.answers import BadInput, need
 from compare.check_certificate.balls import Interval, R, most
-from compare.check_certificate.families.every_motion.setting import Setting, Variable
-from compare.check_certificate.reading import index, number
+from compare.check_certificate.families.every_motion.setting import PRODUCTS, LegName, Setting, Variable
+from compare.check_certificate.families.every_motion.terms import Inequality, LegTerms
+from compare.check_certificate.reading import index, items, number
 
 WIDTHS = {
     "h": 2, "b": 3, "l": 3, "s": 3, "t": 4, "c": 4, "w": 6, "m": 6, "v": 7, "a": 7, "r": 8, "d": 11, "k": 11,
+    "S": 3, "T": 4, "C": 4, "g": 6, "x": 6, "V": 6, "R": 8, "D": 11, "K": 11, "j": 5, "e": 4,
 }  # fmt: skip
 SUMS = ("h", "b", "l")  # rows about sums of durations
-Inequality = tuple[dict[Variable, Any], Any]
+OF_DURATION = ("s", "t", "c", "S", "T", "C")
+TIED = {"w": "W", "m": "p", "g": "g", "x": "X"}  # the product that a row ties to its factors
 
 
 def require_row(raw: list[Any]) -> None:
@@ -67,29 +77,33 @@ class Inequalities(Setting):
         if kind in SUMS:
             i, side, upper = self.arrival(raw)
             return {("T", k): R(side) for k in self.ks if k < i}, upper
-        if kind in ("s", "t", "c"):
+        if kind in OF_DURATION:
             return self._of_duration(kind, self.leg(raw[1]), raw)
-        j, k = index(raw[1], self.claim.dof), self.leg(raw[2])
-        need(j in self.joints, f"a row is about joint {j + 1}, which has no box")
-        if kind in ("w", "m"):
-            return self._product(kind, j, k, index(raw[3], 2), index(raw[4], 4))
-        signs = raw[4] if kind in "vr" else raw[3]
-        if type(signs) is not int or signs not in (-1, 1):
-            raise BadInput(f"a sign is {signs!r:.40}")
+        if kind == "e":
+            return self._tie(self.leg(raw[1]), _sign(raw[2]))
+        j = index(raw[1], self.claim.dof)
+        if kind == "V":
+            return self._peak_of(j, index(raw[2], self.claim.n + 1), _sign(raw[3]), number(raw[4]))
+        k = self.leg(raw[2])
+        if kind in TIED:
+            return self._product(TIED[kind], k, j, index(raw[3], 2), index(raw[4], 4))
+        sign = _sign(raw[4] if kind in "vrR" else raw[3])
         if kind == "v":
-            return self._peak(j, k, index(raw[3], 2), signs, number(raw[5]))
-        places = [number(x) for x in raw[5 if kind == "r" else 4 : -1]]
-        used = [places[i] for i in (0, 1, 4, 5)] if kind == "k" else places
+            return self._peak(j, k, index(raw[3], 2), sign, number(raw[5]))
+        if kind == "j":
+            return self._change(j, k, sign)
+        places = [number(x) for x in raw[5 if kind in "rR" else 4 : -1]]
+        used = [places[i] for i in (0, 1, 4, 5)] if kind in "kK" else places
         ascending = all(x <= y for x, y in pairwise([R(0), *used, R(1)]))
         need(ascending, "places are not ascending in [0, 1]")
-        if kind == "r":
-            return self._stop(j, k, index(raw[3], 2), signs, *places)
         if kind == "a":
-            return self._speed(j, k, signs, *places)
-        return self._distance(j, k, signs, places, kind == "d")
+            return self._speed(j, k, sign, *places)
+        if kind in "rR":
+            return self._stop(j, k, index(raw[3], 2), sign, *places, whole=kind == "R")
+        return self._distance(j, k, sign, places, cruises=kind in "dD", whole=kind in "DK")
 
-    def leg(self, value: Any) -> int:
-        """Read the number of a leg.
+    def leg(self, value: Any) -> LegName:
+        """Read the name of a leg.
 
         Parameters
         ----------
@@ -98,9 +112,12 @@ class Inequalities(Setting):
 
         Returns
         -------
-        int
-            The waypoint where it starts. Refuses the certificate if there is none.
+        int or tuple of int
+            The waypoint where it starts; both its ends if it is over several others. Refuses the certificate
+            if there is none.
         """
+        if isinstance(value, list):
+            return self.span(*(index(i, self.claim.n + 1) for i in items(value, 2, 2)))
         k = index(value, self.claim.n)
         need(k in self.legs, f"a row is about segment {k + 1}, on which nothing moves")
         return k
@@ -130,37 +147,64 @@ class Inequalities(Setting):
         side = 1 if latest else -1
         return i, side, side * (time - self.waited[i])
 
-    def _of_duration(self, kind: str, k: int, raw: list[Any]) -> Inequality:
-        """Rows s, t and c."""
-        T, u, q = ("T", k), ("u", k), ("q", k)
+    def _of_duration(self, kind: str, k: LegName, raw: list[Any]) -> Inequality:
+        """Rows s, t, c, S, T and C."""
+        T, u, q, r = (("T", k), ("u", k), ("q", k), ("r", k))
         low, high = self.boxes[T]
+        if kind in "stc":
+            self.require_time(k)
         if kind == "s":
             return {u: R(1), T: 1 / (low * high)}, 1 / low + 1 / high
+        if kind == "S":
+            return {q: R(1), T: -(low + high)}, -low * high
         t = number(raw[2])
+        if kind == "T":
+            return {T: 2 * t, q: R(-1)}, t * t
+        if kind == "C":
+            return {r: R(1), q: -(high + 2 * t), T: 2 * high * t + t * t}, high * t * t
         need(t > 0, "a place is not positive")
         if kind == "t":
             return {T: -1 / (t * t), u: R(-1)}, -2 / t
         return {q: R(1), T: -(high + 2 * t), u: -high * t * t}, -(2 * high * t + t * t)
 
-    def _product(self, kind: str, j: int, k: int, end: int, corner: int) -> Inequality:
-        """Rows w and m: X - t x - f y + t f is not negative at corners 0, 1, not positive at 2, 3."""
-        product, of, by = ("W", "a", ("T", k)) if kind == "w" else ("p", "e", ("u", k))
-        x = self.at(of, self.after[k] if end else k, j)
-        need(x in self.boxes, "a row is about a zone that a waypoint does not have")
-        t, f = self.box(by)[corner % 2], self.boxes[x][corner in (1, 2)]
+    def _product(self, kind: str, k: LegName, j: int, end: int, corner: int) -> Inequality:
+        """Tie X = x y: X - t y - f x + t f is not negative at corners 0, 1, not positive at 2, 3."""
+        power, state = PRODUCTS[kind]
+        x, y = (power, k), self.at_end(state, k, j, end)
+        t, f = self.box(x)[corner % 2], self.box(y)[corner in (1, 2)]
         side = 1 if corner < 2 else -1
-        return {(product, k, j, end): R(-side), x: side * t, by: side * f}, side * t * f
+        return {(kind, k, j, end): R(-side), y: side * t, x: side * f}, side * t * f
 
-    def _peak(self, j: int, k: int, end: int, sign: int, c: Any) -> Inequality:
+    def _tie(self, k: LegName, sign: int) -> Inequality:
+        """Row e: both signs make the duration of a leg over several others their sum."""
+        leg = self.legs[k]
+        parts = [("T", part) for part in self.ks if leg.start <= part < leg.end]
+        need(("T", k) not in parts, "a leg is over several others, or no row says so")
+        return {("T", k): R(sign)} | dict.fromkeys(parts, R(-sign)), R(0)
+
+    def _change(self, j: int, k: LegName, sign: int) -> Inequality:
+        """Row j."""
+        row = LegTerms(self, j, k, whole=False)
+        for end in (0, 1):
+            row.add(self.at_end("a", k, j, end), R(sign if end else -sign))
+        row.less(2, R(1), self.legs[k].jerk[j])
+        return row.inequality()
+
+    def _peak(self, j: int, k: LegName, end: int, sign: int, c: Any) -> Inequality:
         """Row v: the acceleration fades after the waypoint, or rose from 0 before it, and adds a^2 / (2 J).
 
         If sign a and sign c differ, the row is weaker than the limit of the velocity at the waypoint.
         """
-        need(self.J[j] is not None, "a row needs a jerk limit where there is none")
-        i = self.after[k] if end else k
+        i = self.waypoint(k, end)
         V, J = self._limits_of_peak(j, i, bool(sign * c > 0))
         v = self.at("v", i, j)
         return {v: R(sign), ("W", k, j, end): c / J, ("q", k): -c * c / (2 * J)}, V[sign > 0]
+
+    def _peak_of(self, j: int, i: int, sign: int, f: Any) -> Inequality:
+        """Row V: the same of the acceleration itself; f is on the side of sign a."""
+        V, J = self._limits_of_peak(j, i, bool(f > 0))
+        row = {self.at("v", i, j): R(sign), self.at("a", i, j): sign * f / J}
+        return row, V[sign > 0] + f * f / (2 * J)
 
     def _limits_of_peak(self, j: int, i: int, later: bool) -> tuple[Interval, Any]:
         """Limits of velocity and jerk where the acceleration of a waypoint fades, later or before.
@@ -168,7 +212,7 @@ class Inequalities(Setting):
         They are those of the next leg if that is long enough; else the largest of the whole motion, which
         has to be long enough.
         """
-        low, high = self.boxes[self.at("a", i, j)]
+        low, high = self.box(self.at("a", i, j))
         steepest, beside = most(abs(low), abs(high)), i if later else self.before.get(i)
         if beside in self.legs and self.boxes["T", beside][0] >= steepest / self.legs[beside].jerk[j]:
             return self.V[beside][j], self.legs[beside].jerk[j]
@@ -193,64 +237,67 @@ class Inequalities(Setting):
             sums, total = {self.ends[0]: R(0)}, R(0)
             for k in self.ks:
                 total += self.boxes["T", k][0]
-                sums[self.after[k]] = total
+                sums[self.legs[k].end] = total
             self._sums = self.boxes, sums
         sums = self._sums[1]
         return sums[i], sums[self.ends[1]] - sums[i]
 
-    def _moving(self, j: int, k: int, jerk: Any, steep: Any) -> dict[Variable, Any]:
-        """The terms - steep T - jerk J q; without a jerk limit the latter must be 0."""
-        J = self.legs[k].jerk[j]
-        need(J is not None or jerk == 0, "a row needs a jerk limit where there is none")
-        return {("T", k): -steep, ("q", k): R(0) if J is None else -jerk * J}
-
-    def _speed(self, j: int, k: int, sign: int, s1: Any, s2: Any) -> Inequality:
+    def _speed(self, j: int, k: LegName, sign: int, s1: Any, s2: Any) -> Inequality:
         """Row a."""
-        e2 = 1 - s2
-        row = self._moving(j, k, (s1 * s1 + e2 * e2) / 2, (s2 - s1) * self.A[k][j][sign > 0])
-        self._add_ends(row, j, k, R(-sign), R(sign))
-        return row | {("W", k, j, 0): -sign * s1, ("W", k, j, 1): -sign * e2}, R(0)
+        row, e2 = LegTerms(self, j, k, whole=False), 1 - s2
+        for end, share in ((0, s1), (1, e2)):
+            row.speed(end, R(sign if end else -sign))
+            row.turn(end, -sign * share)
+        row.less(2, s2 - s1, self.A[k][j][sign > 0])
+        row.less(3, (s1 * s1 + e2 * e2) / 2, self.legs[k].jerk[j])
+        return row.inequality()
 
-    def _add_ends(self, row: dict[Variable, Any], j: int, k: int, first: Any, last: Any) -> None:
-        """Add the terms of both velocities, which are one variable where a cycle has one leg."""
-        v0, v1 = self.at("v", k, j), self.at("v", self.after[k], j)
-        row[v0] = first
-        row[v1] = row.get(v1, R(0)) + last
-
-    def _stop(self, j: int, k: int, end: int, sign: int, s1: Any, s2: Any) -> Inequality:
-        """Row r; at the end of a leg with time reversed, towards the side that the joint comes from.
+    def _stop(
+        self, j: int, k: LegName, end: int, sign: int, s1: Any, s2: Any, *, whole: bool
+    ) -> Inequality:
+        """Row r or R; at the end of a leg with time reversed, towards the side that the joint comes from.
 
         Only an acceleration that points away from the position limit holds the joint back.
         """
-        i, towards = self.after[k] if end else k, -sign if end else sign
+        i, towards = self.waypoint(k, end), -sign if end else sign
         bound = self.legs[k].position[j][towards > 0]
         need(
             bound is not None,
             f"a row poses a limit that joint {self.claim.joint_name(j)} does not have",
         )
-        away = self.A[k][j][towards < 0]
-        row = self._moving(j, k, s1 * s1 * s2 / 2 - s1**3 / 3, (s2 - s1) ** 2 / 2 * away)
-        row[("u", k)] = -(towards * (bound - self.c[i][j]) + self.claim.slack)
-        if self.at("e", i, j) in self.boxes:
-            row[("p", k, j, end)] = R(towards)
-        row[self.at("v", i, j)] = sign * s2
-        return row | {("W", k, j, end): towards * (s1 * s2 - s1 * s1 / 2)}, R(0)
+        row = LegTerms(self, j, k, whole=whole)
+        row.constant(-(towards * (bound - self.c[i][j]) + self.claim.slack))
+        row.offset(end, towards)
+        row.speed(end, sign * s2)
+        row.turn(end, towards * (s1 * s2 - s1 * s1 / 2))
+        row.less(2, (s2 - s1) ** 2 / 2, self.A[k][j][towards < 0])
+        row.less(3, s1 * s1 * s2 / 2 - s1**3 / 3, self.legs[k].jerk[j])
+        return row.inequality()
 
-    def _distance(self, j: int, k: int, sign: int, s: list[Any], cruises: bool) -> Inequality:
-        """Row d, or k without a piece at top speed: there the pieces of jerk -J are one, z = y its middle."""
+    def _distance(
+        self, j: int, k: LegName, sign: int, s: list[Any], *, cruises: bool, whole: bool
+    ) -> Inequality:
+        """Row d or D; k or K without a piece at top speed: the pieces of jerk -J are one, z = y its middle."""
         s1, s2, s3, s4, s5, s6 = s if cruises else [s[0], s[1], s[4], s[1], s[4], s[5]]
         z, y = (s2 + s3) / 2, (s4 + s5) / 2
         turn = ((s3 - s2) ** 3 + (s5 - s4) ** 3) / 12 if cruises else (s5 - s2) ** 3 / 12
         o, e6 = (1 - y) * (1 - s6) - (1 - s6) ** 2 / 2, 1 - s6
-        forth, back = self.A[k][j][sign > 0], self.A[k][j][sign < 0]
-        steep = (s2 - s1) * (s3 - s1) / 2 * forth + (s6 - s5) * (s6 - s4) / 2 * back
+        row = LegTerms(self, j, k, whole=whole)
+        first, last = (self.c[self.waypoint(k, end)][j] for end in (0, 1))
+        row.constant(sign * (last - first))
+        for end, speed, turned in ((0, -z, -(z * s1 - s1 * s1 / 2)), (1, y - 1, o)):
+            row.offset(end, sign if end else -sign)
+            row.speed(end, sign * speed)
+            row.turn(end, sign * turned)
+        row.less(1, y - z if cruises else R(0), self.V[k][j][sign > 0])
+        row.less(2, (s2 - s1) * (s3 - s1) / 2, self.A[k][j][sign > 0])
+        row.less(2, (s6 - s5) * (s6 - s4) / 2, self.A[k][j][sign < 0])
         g = z * s1 * s1 / 2 - s1**3 / 3 + (1 - y) * e6 * e6 / 2 - e6**3 / 3 + turn
-        row = self._moving(j, k, g, steep)
-        i = self.after[k]
-        row[("u", k)] = sign * (self.c[i][j] - self.c[k][j])
-        for at, end in ((i, 1), (k, 0)):
-            if self.at("e", at, j) in self.boxes:
-                row[("p", k, j, end)] = R(sign if end else -sign)
-        self._add_ends(row, j, k, -sign * z, -sign * (1 - y))
-        row |= {("W", k, j, 0): -sign * (z * s1 - s1 * s1 / 2), ("W", k, j, 1): sign * o}
-        return row, (y - z) * self.V[k][j][sign > 0] if cruises else R(0)
+        row.less(3, g, self.legs[k].jerk[j])
+        return row.inequality()
+
+
+def _sign(raw: Any) -> int:
+    if type(raw) is not int or raw not in (-1, 1):
+        raise BadInput(f"a sign is {raw!r:.40}")
+    return raw

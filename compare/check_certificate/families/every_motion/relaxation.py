@@ -38,9 +38,9 @@ class Relaxation(Inequalities):
             event, where = items(raw, 1, 6), f"event {place}"
             letter = str(event[0])
             if letter in ("R", "P"):
-                if letter == "P" and self._propagate(pending):
+                empty = letter == "P" and self._propagate(pending)
+                if self._renew(pending) or empty:
                     return count  # nothing is left
-                self.boxes = dict(pending)
                 continue
             rows = items(event[-1], 0, MOST_ROWS)
             count += len(rows)
@@ -49,7 +49,7 @@ class Relaxation(Inequalities):
                 key, side = self._narrowed(event)
                 bound = self.least({key: R(-1 if side else 1)}, rows)
                 need(bound.is_finite(), f"{where}: the box is not narrowed")
-                lo, hi = pending[key]
+                lo, hi = pending.get(key, self.boxes[key])
                 pending[key] = (
                     (lo, least(hi, (-bound).upper())) if side else (most(lo, bound.lower()), hi)
                 )
@@ -66,15 +66,26 @@ class Relaxation(Inequalities):
                 raise BadInput(f"{where}: unknown event {letter!r:.20}")
         raise Refused("the events end before the bound")
 
+    def _renew(self, boxes: dict[Variable, tuple[Any, Any]]) -> bool:
+        """Put boxes in force, of legs over several others within the sums of these; whether one is empty."""
+        spans = [("T", name) for name in self.spans]
+        for key in spans:
+            (lo, hi), (low, high) = boxes.get(key, self.boxes[key]), self.sums(boxes, key[1])
+            boxes[key] = most(lo, low), least(hi, high)
+        self.boxes = dict(boxes)
+        return any(bool(boxes[key][0] > boxes[key][1]) for key in spans)
+
     def _propagate(self, boxes: dict[Variable, tuple[Any, Any]]) -> bool:
         """Narrow the accelerations from the durations; whether a box is then certainly empty."""
         limited = [j for j in self.joints if self.J[j] is not None]
         for before, after in pairwise(self.ks):
+            if not (boxes["T", before][0] > 0 and boxes["T", after][0] > 0):
+                continue
             of_both = weights(boxes["T", before], boxes["T", after])
             for j in limited:
                 d, e = self._way(boxes, before, j), self._way(boxes, after, j)
                 J = self.legs[before].jerk[j], self.legs[after].jerk[j]
-                a = self.at("a", after, j)
+                a = self.at_end("a", after, j, 0)
                 lo, hi = boxes[a]
                 boxes[a] = (
                     most(lo, (-greatest(-d[1], -e[0], J, of_both)).lower()),
@@ -82,28 +93,27 @@ class Relaxation(Inequalities):
                 )
         for j in limited:
             # over a leg it changes by at most J T
-            ways = [(k, self.after[k], k) for k in self.ks]
-            for start, end, k in [*ways, *((end, start, k) for start, end, k in reversed(ways))]:
+            for k, end in [*((k, 1) for k in self.ks), *((k, 0) for k in reversed(self.ks))]:
                 change = self.legs[k].jerk[j] * boxes["T", k][1]
-                (low, high), (lo, hi) = (boxes[self.at("a", i, j)] for i in (start, end))
-                lo, hi = most(lo, (low - change).lower()), least(hi, (high + change).upper())
-                boxes[self.at("a", end, j)] = lo, hi
+                there, here = (self.at_end("a", k, j, at) for at in (1 - end, end))
+                (low, high), (lo, hi) = boxes[there], boxes[here]
+                boxes[here] = most(lo, (low - change).lower()), least(hi, (high + change).upper())
         return any(bool(lo > hi) for lo, hi in boxes.values())
 
     def _way(self, boxes: dict[Variable, tuple[Any, Any]], k: int, j: int) -> tuple[Any, Any]:
         """Least and greatest displacement of a joint on a leg."""
-        i, none = self.after[k], (R(0), R(0))
-        way = self.c[i][j] - self.c[k][j]
-        (a, b), (c, d) = (boxes.get(self.at("e", at, j), none) for at in (k, i))
+        none = R(0), R(0)
+        way = self.c[self.legs[k].end][j] - self.c[k][j]
+        (a, b), (c, d) = (boxes.get(self.at_end("e", k, j, end), none) for end in (0, 1))
         return way + c - b, way + d - a
 
     def _narrowed(self, event: list[Any]) -> tuple[Variable, int]:
         """The variable that an event narrows, and from which side."""
         if event[1] == "T" and len(event) == 5:
             return ("T", self.leg(event[2])), index(event[3], 2)
-        if event[1] in ("a", "x") and len(event) == 6:
+        if event[1] in ("v", "a", "x") and len(event) == 6:
             i, j = index(event[2], self.claim.n + 1), index(event[3], self.claim.dof)
-            key = self.at("a" if event[1] == "a" else "e", i, j)
+            key = self.at("e" if event[1] == "x" else event[1], i, j)
             need(key in self.boxes, "an event is about a waypoint or joint without a box")
             return key, index(event[4], 2)
         raise BadInput(f"unknown event {event!r:.60}")
@@ -147,11 +157,11 @@ class Relaxation(Inequalities):
         else:
             everywhere, rest = R(0), R(0)
             for k in reversed(self.ks):
-                everywhere += sums.get(self.after[k], R(0))
+                everywhere += sums.get(self.legs[k].end, R(0))
                 factors["T", k] = factors.get(("T", k), R(0)) + everywhere
             everywhere = R(0)
         for key, x in factors.items():
-            if key[0] == "T":
+            if key[0] == "T" and isinstance(key[1], int):
                 x, rest = x + everywhere, rest - self.boxes[key][0]
             certainly_zero = x == 0  # a ball of 0 alone
             if not certainly_zero:

@@ -26,19 +26,48 @@ class Kind(IntEnum):
     SPEED = 10  # (2)
     ZONE_AT_START = 11  # (11), at either end of a segment
     ZONE_AT_END = 12
+    SPEED_PRODUCT_AT_START = 13  # (9) of T v
+    SPEED_PRODUCT_AT_END = 14
+    SQUARE_PRODUCT_AT_START = 15  # (9) of T^2 a
+    SQUARE_PRODUCT_AT_END = 16
+    FADE_AT_START = 17  # (10) at an acceleration
+    FADE_AT_END = 18
+    CHANGE = 19  # (14)
+    TANGENT_TIMES_T = 20  # rows times T
+    HULL_TIMES_T = 21
+    DISTANCE_TIMES_T = 22
+    CRUISE_TIMES_T = 23
+    STOP_TIMES_T_AT_START = 24
+    STOP_TIMES_T_AT_END = 25
 
     @property
     def end(self) -> int:
         """The end of the segment that the row is about: 0 start, 1 end."""
-        ends = (Kind.PRODUCT_AT_END, Kind.PEAK_AT_END, Kind.STOP_AT_END, Kind.ZONE_AT_END)
-        return int(self in ends)
+        return int(self.name.endswith("END"))
+
+    @property
+    def times_T(self) -> bool:  # noqa: N802
+        """Whether the row is one in 1 / T, taken times T."""
+        return "TIMES_T" in self.name
 
 
 PRODUCTS = (Kind.PRODUCT_AT_START, Kind.PRODUCT_AT_END)
 PEAKS = (Kind.PEAK_AT_START, Kind.PEAK_AT_END)
-STOPS = (Kind.STOP_AT_START, Kind.STOP_AT_END)
+STOPS = (
+    Kind.STOP_AT_START,
+    Kind.STOP_AT_END,
+    Kind.STOP_TIMES_T_AT_START,
+    Kind.STOP_TIMES_T_AT_END,
+)
+TANGENTS = (Kind.TANGENT, Kind.TANGENT_TIMES_T)
+HULLS = (Kind.HULL, Kind.HULL_TIMES_T)
 ZONES = (Kind.ZONE_AT_START, Kind.ZONE_AT_END)
-DISTANCES = (Kind.DISTANCE, Kind.CRUISE)
+SPEED_PRODUCTS = (Kind.SPEED_PRODUCT_AT_START, Kind.SPEED_PRODUCT_AT_END)
+SQUARE_PRODUCTS = (Kind.SQUARE_PRODUCT_AT_START, Kind.SQUARE_PRODUCT_AT_END)
+ALL_PRODUCTS = (*PRODUCTS, *SPEED_PRODUCTS, *SQUARE_PRODUCTS, *ZONES)
+FADES = (Kind.FADE_AT_START, Kind.FADE_AT_END)
+CRUISES = (Kind.CRUISE, Kind.CRUISE_TIMES_T)
+DISTANCES = (*CRUISES, Kind.DISTANCE, Kind.DISTANCE_TIMES_T)
 
 
 @dataclass(frozen=True)
@@ -54,8 +83,9 @@ class Cuts:
     sign : Array, shape (m,)
         Direction of motion, 1 or -1.
     at : Array, shape (m, 6)
-        The place. First column: t [s] of (7) and (8), the number of a corner of (9) and (11), c [rad/s^3] of
-        (10). The first two columns of (2) and (3), all six of (1): switches in [0, 1].
+        The place. First column: t [s] of (7) and (8), the number of a corner of (9) and (11), c [rad/s^3] or
+        an acceleration [rad/s^2] of (10). The first two columns of (2) and (3), all six of (1): switches in
+        [0, 1].
     """
 
     kind: Indices

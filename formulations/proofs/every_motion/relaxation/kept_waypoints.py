@@ -1,9 +1,8 @@
-"""Which waypoints the relaxation keeps: those that a motion cannot pass at one time with the one before.
+"""Which waypoints the relaxation keeps: all but those that ask for nothing, and those that it is told.
 
 A motion with a waypoint less can only be faster, so that leaving one out proves no more than is true. It is
-necessary where nothing forces time between two waypoints, since 1 / T would have no bound. It is useful
-where a motion passes through a zone on its way: then many positions and times there belong to a fastest
-motion, and no narrow box holds them all.
+useful where a motion passes through a zone on its way: then many positions and times there belong to a
+fastest motion, and no narrow box holds them all.
 """
 
 from __future__ import annotations
@@ -33,34 +32,70 @@ def kept_waypoints(demands: Demands, without: frozenset[int] = frozenset()) -> I
     if demands.plain:
         moving = np.flatnonzero((demands.problem.displacements != 0.0).any(axis=1))
         return np.append(moving, moving[-1:] + 1)
-    last = len(demands.waits) - 1
-    kept = [0]
-    for i in range(1, last):
-        if i not in without and _takes_time(demands, kept[-1], i):
-            kept.append(i)
-    while len(kept) > 1 and not _takes_time(demands, kept[-1], last):
-        kept.pop()
-    return np.array([*kept, last], dtype=np.intp)
+    return np.array([i for i in range(len(demands.waits)) if i not in without], dtype=np.intp)
 
 
-def _takes_time(demands: Demands, start: int, end: int) -> bool:
-    """Whether zones that do not meet, least times or waits force time between two waypoints."""
-    forced = demands.durations[start:end, 0].any() or demands.waits[start + 1 : end].any()
-    return bool(forced or gaps(demands.waypoints[[start, end]]).any())
+def idle_waypoints(demands: Demands) -> frozenset[int]:
+    """Find inner waypoints that ask for nothing: a motion may be there when it is at a neighbour.
+
+    Their box holds that of the waypoint before or after them, nothing forces time in between, and the limits
+    before and after them are the same.
+
+    Parameters
+    ----------
+    demands : Demands
+
+    Returns
+    -------
+    frozenset of int
+        Without these the fastest motion takes as long. None for a plain problem.
+    """
+    if demands.plain:
+        return frozenset()
+    found: set[int] = set()
+    for ahead in (-1, 1):
+        inner = range(1, len(demands.waits) - 1)
+        for i in inner if ahead < 0 else reversed(inner):
+            beside = i + ahead
+            while beside in found:
+                beside += ahead
+            if i not in found and _idle(demands, i, beside):
+                found.add(i)
+    return frozenset(found)
 
 
-def gaps(boxes: Array) -> Array:
-    """Compute the least distance between consecutive zones, backwards and forwards.
+def _idle(demands: Demands, i: int, beside: int) -> bool:
+    between = slice(min(i, beside), max(i, beside))
+    around = slice(min(i - 1, beside), max(i, beside - 1) + 1)  # segments before, between and after
+    limits = (demands.velocity, demands.acceleration, demands.jerk, demands.position)
+    mine, other = demands.waypoints[i], demands.waypoints[beside]
+    return bool(
+        (mine[:, 0] <= other[:, 0]).all()
+        and (other[:, 1] <= mine[:, 1]).all()
+        and not demands.stops[i]
+        and not demands.durations[between, 0].any()
+        and np.isinf(demands.durations[around, 1]).all()
+        and demands.passages[i, 0] <= 0.0
+        and np.isinf(demands.passages[i, 1])
+        and all((of[around] == of[i]).all() for of in limits)
+    )
+
+
+def gaps(boxes: Array, legs: Indices) -> Array:
+    """Compute the least distance between the zones at both ends of legs, backwards and forwards.
 
     Parameters
     ----------
     boxes : Array, shape (K + 1, n, 2) [rad]
         Least and greatest position.
+    legs : Indices, shape (L, 2)
+        Waypoints at their ends.
 
     Returns
     -------
-    Array, shape (K, n, 2) [rad]
+    Array, shape (L, n, 2) [rad]
         0 where a joint need not move in that direction; each rounded once.
     """
-    low, high = boxes[..., 0], boxes[..., 1]
-    return np.maximum(np.stack([low[:-1] - high[1:], low[1:] - high[:-1]], axis=-1), 0.0)
+    start, end = boxes[legs[:, 0]], boxes[legs[:, 1]]
+    apart = [start[..., 0] - end[..., 1], end[..., 0] - start[..., 1]]
+    return np.maximum(np.stack(apart, axis=-1), 0.0)

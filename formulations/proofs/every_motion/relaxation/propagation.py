@@ -21,10 +21,12 @@ the latter is the acceleration limit or J H / 4; short segments leave it no more
 
 from __future__ import annotations
 
+from dataclasses import replace
+
 import numpy as np
 
 from formulations.problem.arrays import Array, Truths
-from formulations.proofs.every_motion.relaxation.boxes import Boxes, joined_ends
+from formulations.proofs.every_motion.relaxation.boxes import Boxes, joined_ends, with_legs
 from formulations.proofs.every_motion.relaxation.relaxed_problem import RelaxedProblem
 
 _ROUNDING = 32.0 * 2.0**-53  # of the sum of all terms' moduli: more than their roundings
@@ -46,18 +48,20 @@ def propagate(relaxed: RelaxedProblem, boxes: Boxes) -> Boxes:
         Empty where an interval is.
     """
     limited = relaxed.has_jerk
+    boxes = with_legs(relaxed, boxes)
     if boxes.empty or not limited.any():
         return boxes
-    J, found = relaxed.jerks[:, limited], boxes.accelerations[:, limited].copy()
+    J, found = relaxed.jerks[: relaxed.n_segments, limited], boxes.accelerations[:, limited].copy()
     least, most = (
-        _upper_sides(*_ways(relaxed, boxes, sign, limited), J, boxes.durations) for sign in (-1.0, 1.0)
+        _upper_sides(*_ways(relaxed, boxes, sign, limited), J, boxes.durations[: relaxed.n_segments])
+        for sign in (-1.0, 1.0)
     )
     # where a number overflows the box stays as it is, and so does an acceleration that is given
     inner = found[1:-1]
     free = inner[..., 0] < inner[..., 1]
     inner[..., 0] = np.where(free, np.fmax(inner[..., 0], -least), inner[..., 0])
     inner[..., 1] = np.where(free, np.fmin(inner[..., 1], most), inner[..., 1])
-    changes = boxes.durations[:, 1, None] * J
+    changes = boxes.durations[: relaxed.n_segments, 1, None] * J
     for k, change in enumerate(changes):
         _follow(found[k + 1], found[k], change)
     for k, change in reversed(list(enumerate(changes))):
@@ -66,12 +70,12 @@ def propagate(relaxed: RelaxedProblem, boxes: Boxes) -> Boxes:
     accelerations[:, limited] = found
     accelerations = joined_ends(relaxed, accelerations)
     empty = bool((accelerations[..., 0] > accelerations[..., 1]).any())
-    return Boxes(boxes.durations, accelerations, boxes.offsets, empty)
+    return replace(boxes, accelerations=accelerations, empty=empty)
 
 
 def _ways(relaxed: RelaxedProblem, boxes: Boxes, sign: float, joints: Truths) -> tuple[Array, Array]:
     """Least displacement before and greatest one after each inner waypoint, (K - 1, n), in one direction."""
-    d = sign * relaxed.displacements[:, joints]
+    d = sign * relaxed.displacements[: relaxed.n_segments, joints]
     offsets = boxes.offsets[:, joints] if sign > 0.0 else -boxes.offsets[:, joints, ::-1]
     low, high = offsets[..., 0], offsets[..., 1]
     least, most = d + (low[1:] - high[:-1]), d + (high[1:] - low[:-1])
@@ -102,7 +106,9 @@ def _upper_sides(d: Array, e: Array, J: Array, durations: Array) -> Array:
     jerk = jerks[:-1] * product(3, 1) + jerks[1:] * product(1, 3)
     sizes = abs(ways[0]) + abs(ways[1]) + jerk
     below = product(2, 1) + product(1, 2)
-    tops = (ways[0] + ways[1] + jerk + _ROUNDING * sizes + _UNDERFLOW) / below
+    tops = ways[0] + ways[1] + jerk + _ROUNDING * sizes + _UNDERFLOW
+    with np.errstate(divide="ignore", invalid="ignore"):  # beside a segment that may take no time
+        tops = tops / below
     return np.where(below > _SMALL, tops, np.inf).max(axis=(2, 3))
 
 

@@ -2,9 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable
 from dataclasses import dataclass
-from itertools import pairwise
 
 import numpy as np
 
@@ -13,6 +11,7 @@ from formulations.problem.demands import Demands
 from formulations.problem.problem import Problem
 from formulations.proofs.every_motion.relaxation.implied_limits import implied_limits
 from formulations.proofs.every_motion.relaxation.kept_waypoints import gaps, kept_waypoints
+from formulations.proofs.every_motion.relaxation.legs import LegLimits, down, legs_between
 
 UP, DOWN = 1.0 + 2.0**-50, 1.0 - 2.0**-50  # cover the rounding of two operations
 _WIDER = (
@@ -24,9 +23,8 @@ _WIDER = (
 class RelaxedProblem:
     """A problem without the waypoints and joints that have no row, and with limits for one horizon.
 
-    A waypoint that can coincide with the one before is left out: a motion without it can only be faster. A
-    joint that never has to move is left out, since it can stand still. A joint with a velocity limit only is
-    left out of the rows: all that it implies is T >= |d| / V, which ``least`` holds.
+    A joint that never has to move is left out, since it can stand still. A joint with a velocity limit only
+    has rows if a waypoint is a zone; else all that it implies is T >= |d| / V, which ``least`` holds.
 
     Where limits differ between segments or directions, ``velocity``, ``acceleration`` and ``jerk`` are the
     greatest of them. A segment between two waypoints that are kept has the loosest limits of the problem's
@@ -62,6 +60,13 @@ class RelaxedProblem:
         Whether positions, velocities and accelerations are the same at both ends.
     fades : tuple of bool
         Whether an acceleration has to come from 0 after the start, and to fall to 0 before the end.
+    by_speed_alone : Truths, shape (n,)
+        Which joints have a velocity limit only; they are here where a waypoint is a zone.
+    plain : bool
+        Whether the problem has no conditions; each segment takes time then.
+    legs : Indices, shape (L, 2)
+        The waypoints, of those kept, between which rows are posed: the K segments come first, then legs over
+        several segments. All arrays of shape (K, ...) above have L lines.
     segments : Indices, shape (K,)
         The problem's number of the waypoint where each segment starts.
     joints : Indices, shape (n,)
@@ -89,6 +94,9 @@ class RelaxedProblem:
     arrivals: Array
     cyclic: bool
     fades: tuple[bool, bool]
+    by_speed_alone: Truths
+    plain: bool
+    legs: Indices
     segments: Indices
     joints: Indices
     end: int
@@ -136,31 +144,34 @@ class RelaxedProblem:
         RelaxedProblem
         """
         kept, joints = kept_waypoints(demands, without), _joints_in_rows(demands)
-        between = _Between(kept)
+        legs = legs_between(demands, kept)
+        of_legs = LegLimits(kept[legs])
         box = demands.waypoints[kept][:, joints]
         middles = box.mean(axis=-1)
         apart = np.maximum(box[..., 1] - middles, middles - box[..., 0])
         slack = demands.problem.position_slack * _WIDER if slack is None else slack
-        bounds = between.hull(demands.position[:, joints])
-        K = len(bounds)
-        room = [(bounds - middles[e : K + e, :, None]) * (-1.0, 1.0) for e in (0, 1)]
+        bounds = of_legs.hull(demands.position[:, joints])
+        room = [(bounds - middles[legs[:, e], :, None]) * (-1.0, 1.0) for e in (0, 1)]
         waits = float(demands.waits[kept].sum()) * down(len(kept))
-        asked = np.maximum(between.least(demands), _by_velocity_alone(demands, kept))
-        speeds = np.abs(between.hull(demands.velocity[:, joints]))
-        by_speed = DOWN * (gaps(box) / speeds).max(axis=(1, 2), initial=0.0)
-        shortest = float(np.maximum(asked, by_speed).sum() + waits) * down(len(kept) + 1)
+        asked = np.maximum(of_legs.least(demands), _by_velocity_alone(demands, kept[legs]))
+        speeds = np.abs(of_legs.hull(demands.velocity[:, joints]))
+        by_speed = DOWN * (gaps(box, legs) / speeds).max(axis=(1, 2), initial=0.0)
+        K = len(kept) - 1
+        shortest = float(np.maximum(asked, by_speed)[:K].sum() + waits) * down(len(kept) + 1)
         top, steepest = implied_limits(demands, joints, horizon, shortest)
         velocities = np.minimum(speeds, top[:, None])
         accelerations = np.minimum(
-            np.abs(between.hull(demands.acceleration[:, joints])), steepest[:, None]
+            np.abs(of_legs.hull(demands.acceleration[:, joints])), steepest[:, None]
         )
-        jerks = between.hull(np.stack(2 * [demands.jerk[:, joints]], axis=-1))[..., 1]
+        alone = ~_limited(demands)[joints]
+        accelerations[:, alone] = velocities[:, alone]  # a unit: their rows have no acceleration
+        jerks = of_legs.hull(np.stack(2 * [demands.jerk[:, joints]], axis=-1))[..., 1]
         jerks = np.where(np.isfinite(jerks), jerks, 0.0)
         return RelaxedProblem(
             least=asked,
-            most=between.most(demands),
-            gaps=gaps(box),
-            displacements=np.diff(middles, axis=0),
+            most=of_legs.most(demands),
+            gaps=gaps(box, legs),
+            displacements=middles[legs[:, 1]] - middles[legs[:, 0]],
             zones=np.where(box[..., 0] < box[..., 1], UP * apart, 0.0),
             room=np.maximum(np.stack(room, axis=1), 0.0) + slack,
             velocity=velocities.max(axis=(0, 2), initial=0.0),
@@ -169,12 +180,12 @@ class RelaxedProblem:
             velocities=velocities,
             accelerations=accelerations,
             jerks=jerks,
-            v_boxes=_at_waypoints(demands, kept, joints, velocities, demands.end_velocity),
+            v_boxes=_at_waypoints(demands, kept, joints, velocities[:K], demands.end_velocity),
             a_boxes=_at_waypoints(
                 demands,
                 kept,
                 joints,
-                accelerations * (jerks > 0.0)[..., None],
+                (accelerations * (jerks > 0.0)[..., None])[:K],
                 demands.end_acceleration,
             ),
             horizon=UP * (horizon - waits) if waits else horizon,
@@ -182,6 +193,9 @@ class RelaxedProblem:
             arrivals=_arrivals(demands, kept),
             cyclic=demands.cyclic,
             fades=_fades(demands),
+            by_speed_alone=~_limited(demands)[joints],
+            plain=demands.plain,
+            legs=legs,
             segments=kept[:-1],
             joints=joints,
             end=int(kept[-1]) if len(kept) else 0,
@@ -202,56 +216,24 @@ class RelaxedProblem:
         """The problem's number of each waypoint kept, (K + 1,)."""
         return np.append(self.segments, self.end)
 
+    @property
+    def n_segments(self) -> int:
+        """Number of segments between waypoints that are kept."""
+        return len(self.segments)
 
-class _Between:
-    """Values of the problem's segments between two waypoints that are kept."""
+    def over_legs(self, values: Array) -> Array:
+        """Add up values of the segments for each leg.
 
-    def __init__(self, kept: Indices) -> None:
-        self.parts = [slice(i, k) for i, k in pairwise(kept.tolist())]
+        Parameters
+        ----------
+        values : Array, shape (K,)
 
-    def _each(self, of: Callable[[slice], Array], shape: tuple[int, ...]) -> Array:
-        return np.array([of(part) for part in self.parts]).reshape(len(self.parts), *shape)
-
-    def hull(self, intervals: Array) -> Array:
-        """The intervals that hold those of all segments, (K, n, 2)."""
-        low = self._each(lambda part: intervals[part, :, 0].min(axis=0), intervals.shape[1:2])
-        high = self._each(lambda part: intervals[part, :, 1].max(axis=0), intervals.shape[1:2])
-        return np.stack([low, high], axis=-1)
-
-    def least(self, demands: Demands) -> Array:
-        """Time that is asked for at least, (K,), with waits at waypoints that are not kept."""
-
-        def least(part: slice) -> Array:
-            inside = demands.waits[part.start + 1 : part.stop]
-            return down(2 * len(inside) + 2) * (demands.durations[part, 0].sum() + inside.sum())
-
-        return self._each(least, ())
-
-    def most(self, demands: Demands) -> Array:
-        """Time that is asked for at most, (K,); infinite where there is a wait in between."""
-
-        def most(part: slice) -> Array:
-            inside = demands.waits[part.start + 1 : part.stop]
-            whole = demands.durations[part, 1].sum() * (2.0 - down(len(inside) + 1))
-            return np.asarray(np.inf if inside.any() else whole)
-
-        return self._each(most, ())
-
-
-def down(terms: int) -> float:
-    """Compute a factor that makes a sum of floats less than their exact sum.
-
-    Parameters
-    ----------
-    terms : int
-        How many positive terms are added up.
-
-    Returns
-    -------
-    float
-        Just below 1.
-    """
-    return 1.0 - (terms + 1) * 2.0**-52
+        Returns
+        -------
+        Array, shape (L,)
+        """
+        sums = [values[i:k].sum() for i, k in self.legs[self.n_segments :].tolist()]
+        return np.concatenate([values, sums]) if sums else values
 
 
 def _limited(demands: Demands) -> Truths:
@@ -266,14 +248,15 @@ def _joints_in_rows(demands: Demands) -> Indices:
     moves = box[..., 0].max(axis=0) > box[..., 1].min(axis=0)
     for states in (demands.end_velocity, demands.end_acceleration):
         moves |= ((states[..., 0] > 0.0) | (states[..., 1] < 0.0)).any(axis=0)
-    return np.flatnonzero(moves & _limited(demands))
+    zones = (box[..., 0] < box[..., 1]).any(axis=0)
+    return np.flatnonzero(moves & (_limited(demands) | zones))
 
 
-def _by_velocity_alone(demands: Demands, kept: Indices) -> Array:
-    """Least time of the joints with a velocity limit only, (K,) [s]."""
+def _by_velocity_alone(demands: Demands, legs: Indices) -> Array:
+    """Least time of the joints with a velocity limit only, (L,) [s]."""
     others = np.flatnonzero(~_limited(demands))
-    speeds = np.abs(_Between(kept).hull(demands.velocity[:, others]))
-    return DOWN * (gaps(demands.waypoints[kept][:, others]) / speeds).max(axis=(1, 2), initial=0.0)
+    speeds = np.abs(LegLimits(legs).hull(demands.velocity[:, others]))
+    return DOWN * (gaps(demands.waypoints[:, others], legs) / speeds).max(axis=(1, 2), initial=0.0)
 
 
 def _at_waypoints(

@@ -3,7 +3,7 @@
 Variables, each of order 1: the duration T of a segment, 1 / T and T^2; velocity v and acceleration a of
 a joint at a waypoint; W = T a at both ends of a segment; where a waypoint is a zone, how far e the joint
 is from its middle, and p = e / T at the ends of both segments. At the ends of a cycle the variables are
-the same. Rows:
+the same. A leg over several segments has variables as a segment has; its T is their sum. Rows:
 
     sum of T <= H, and of those before a waypoint within its bounds                              (5)
     1 / T <= 1 / l + 1 / h - T / (l h)       secant over l <= T <= h                             (6)
@@ -12,7 +12,13 @@ the same. Rows:
     (T - t) (a - f) of one sign              T at a bound t, a at a bound f (McCormick 1976)     (9)
     |v| + (2 c W - c^2 T^2) / (2 J) <= V     tangent of |v| + a^2 / (2 J) <= V, c = a / T        (10)
     (1 / T - u) (e - f) of one sign          1 / T at a bound u, e at a bound f                  (11)
+    |a - a| <= J T                           the accelerations at both ends                      (14)
     (1), (2) and (3) of ``reach``, where d / T is (distance of the middles) / T + p - p.
+
+Where a segment may take no time, or next to none, the rows in 1 / T are posed times T. The variables
+g = T v, X = T^2 a and T^3 stand for v, W and T^2 then, T^2 for T, and e for p; T stands for 1, and 1 for
+1 / T. g and X are products (9) of T and v, and of T^2 and a; (10) is posed at an acceleration f,
+|v| + (2 f a - f^2) / (2 J) <= V.
 
 Row (8) makes the relaxation tight: together with (6) and (7) it bounds the convex hull of the curve
 (T, 1 / T, T^2) where the optimum lies; the secant of T^2 is the case t = l. In (10) the acceleration a
@@ -20,7 +26,7 @@ falls to 0 after the waypoint, or rose from 0 before it, with |j| <= J, and the 
 meanwhile. V and J are those of the segment on that side where it has the time a / J for that, else the
 greatest of all segments. Where an acceleration is free at an end of the motion, (10) is posed only where
 there is certainly that time in the motion. The least sum of T over these rows is a lower
-bound for every choice of t, c and the switches.
+bound for every choice of t, c, f and the switches.
 
 Rounding. A coefficient differs from the exact one by at most 32 roundings, none of which cancels. Each
 right hand side is raised by 64 u sum |a_i| max |x_i|, u = 2^-53, so that the rows in floats hold for
@@ -36,9 +42,17 @@ from __future__ import annotations
 
 import numpy as np
 
-from formulations.problem.arrays import Array, Indices, Truths
-from formulations.proofs.every_motion.relaxation.columns import Columns
-from formulations.proofs.every_motion.relaxation.cuts import PEAKS, PRODUCTS, STOPS, ZONES, Cuts, Kind
+from formulations.proofs.every_motion.relaxation.cuts import (
+    ALL_PRODUCTS,
+    CRUISES,
+    FADES,
+    HULLS,
+    PEAKS,
+    STOPS,
+    TANGENTS,
+    Cuts,
+    Kind,
+)
 from formulations.proofs.every_motion.relaxation.inequalities import Rows, Terms
 from formulations.proofs.every_motion.relaxation.reach import (
     arc_coefficients,
@@ -46,37 +60,13 @@ from formulations.proofs.every_motion.relaxation.reach import (
     speed_coefficients,
     stop_coefficients,
 )
-from formulations.proofs.every_motion.relaxation.relaxed_problem import DOWN, UP
+from formulations.proofs.every_motion.relaxation.ties import Ties, forwards_of, require
 
-_ALLOWANCE = 64.0 * 2.0**-53
 _WIDEST = 9  # coefficients of a row, but (5)
 
 
-class Frame(Columns):
+class Frame(Ties):
     """The rows of one relaxed problem in its boxes."""
-
-    def fixed(self) -> Rows:
-        """Rows (5) and (6); the bounds of the sums before waypoints come last."""
-        low, high, one = self.low, self.high, np.ones(self.K)
-        share = list(self.typical[:, None] / self.relaxed.horizon)
-        total = self._rows([np.array([column]) for column in self.T], share, np.ones(1))
-        columns = [self.inverse, self.T]
-        secants = self._rows(columns, [one, 1.0 / (low * high)], 1.0 / low + 1.0 / high).normal()
-        blocks = [total.rows(self.size), secants.rows(self.size)]
-        for i, side in self.bounded_sums:
-            bound = float(self.relaxed.arrivals[i, side])
-            sign = 1.0 if side else -1.0
-            terms = list(sign * self.typical[:i, None])
-            row = self._rows([np.array([c]) for c in self.T[:i]], terms, np.array([sign * bound]))
-            blocks.append(row.rows(self.size))
-        return Rows.joined(blocks)
-
-    @property
-    def bounded_sums(self) -> list[tuple[int, int]]:
-        """Waypoints and sides (0 earliest, 1 latest) whose arrival is bounded, in the order of rows (5)."""
-        arrivals = self.relaxed.arrivals[1:]
-        asked = (arrivals > 0.0) & np.isfinite(arrivals)
-        return [(i + 1, side) for i, side in np.argwhere(asked).tolist()]
 
     def of(self, cuts: Cuts) -> Rows:
         """Compute one row for each cut, in the order of the table.
@@ -114,173 +104,63 @@ class Frame(Columns):
         return self._of_kind(kind, cuts).in_range()
 
     def _of_kind(self, kind: Kind, cuts: Cuts) -> Terms:
-        if kind in (Kind.TANGENT, Kind.HULL):
+        if kind in (*TANGENTS, *HULLS):
             return self._of_duration(kind, cuts)
-        if kind in PRODUCTS:
-            return self._product(kind.end, cuts)
-        if kind in ZONES:
-            return self._zone(kind.end, cuts)
-        if kind in PEAKS:
-            return self._peak(kind.end, cuts)
+        if kind in ALL_PRODUCTS:
+            return self._product(kind, cuts)
+        if kind in (*PEAKS, *FADES):
+            return self._peak(kind, cuts)
+        if kind == Kind.CHANGE:
+            return self._change(cuts)
         if kind in STOPS:
-            return self._stop(kind.end, cuts)
-        return self._speed(cuts) if kind == Kind.SPEED else self._distance(kind == Kind.CRUISE, cuts)
+            return self._stop(kind, cuts)
+        return self._speed(cuts) if kind == Kind.SPEED else self._distance(kind, cuts)
 
-    def place(self, cuts: Cuts) -> Array:
-        """Where the rows (7) and (8) of these cuts are posed, in units of ``typical``, in the boxes.
-
-        Parameters
-        ----------
-        cuts : Cuts
-
-        Returns
-        -------
-        Array, shape (m,)
-        """
-        k = cuts.segment
-        return np.asarray(np.clip(cuts.at[:, 0] / self.typical[k], self.low[k], self.high[k]))
-
-    def _of_duration(self, kind: Kind, cuts: Cuts) -> Terms:
-        k, t, one = cuts.segment, self.place(cuts), np.ones(len(cuts))
-        if kind == Kind.TANGENT:
-            return self._rows([self.T[k], self.inverse[k]], [-1.0 / t**2, -one], -2.0 / t).normal()
-        h = self.high[k]
-        columns = [self.square[k], self.T[k], self.inverse[k]]
-        a = [one, -(h + 2.0 * t), -h * t**2]
-        return self._rows(columns, a, -(2.0 * h * t + t**2)).normal()
-
-    def _product(self, end: int, cuts: Cuts) -> Terms:
-        k, j = cuts.segment, cuts.joint
-        t, e, side = self.corner(cuts, end)
-        columns = [self.W[k, j, end], self.a[k + end, j], self.T[k]]
-        return self._rows(columns, [-side, side * t, side * e], side * t * e)
-
-    def _zone(self, end: int, cuts: Cuts) -> Terms:
-        k, j, corner = cuts.segment, cuts.joint, cuts.at[:, 0]
-        u = np.where(corner % 2 == 0, 1.0 / self.high[k] * DOWN, 1.0 / self.low[k] * UP)
-        upper = (corner == 1) | (corner == 2)
-        f = np.where(upper, self.e_high[k + end, j], self.e_low[k + end, j])
-        side = np.where(corner < 2, 1.0, -1.0)
-        columns = [self.p[k, j, end], self.e[k + end, j], self.inverse[k]]
-        return self._rows(columns, [-side, side * u, side * f], side * u * f)
-
-    def _peak(self, end: int, cuts: Cuts) -> Terms:
-        k, j, sign = cuts.segment, cuts.joint, cuts.sign
-        _require(self.relaxed.has_jerk[j])
-        c = cuts.at[:, 0] * self.typical[k] / self.relaxed.acceleration[j]
-        top, bend, sound = self.peak(end, cuts)
-        share = self.ramp[k, j] ** 2 / bend
-        columns = [self.v[k + end, j], self.W[k, j, end], self.square[k]]
-        # LinearProgram leaves infinite rows out
-        upper = np.where(sound, top, np.inf)
-        return self._rows(columns, [sign, share * c, -0.5 * share * c**2], upper)
-
-    def peak(self, end: int, cuts: Cuts) -> tuple[Array, Array, Truths]:
-        """Find the limits of (10): those of the segment where the acceleration fades, or of all segments.
-
-        With c along the motion the speed rises after the waypoint, else it fell before it.
-
-        Parameters
-        ----------
-        end : int
-            0 for the start of a segment, 1 for its end.
-        cuts : Cuts
-
-        Returns
-        -------
-        top, bend : Array, shape (m,)
-            V, and J T^2 for the typical duration, in units of the velocity limit.
-        sound : Truths, shape (m,)
-            Whether there is certainly the time.
-        """
-        i, j = cuts.segment + end, cuts.joint
-        forwards, after = _forwards(cuts.sign), cuts.sign * cuts.at[:, 0] > 0.0
-        k = np.where(after, i, i - 1)  # the segment on that side
-        there = (k >= 0) & (k < self.K)
-        k = np.clip(k, 0, self.K - 1)
-        own = there & self.fades_within[k, np.where(after, 0, 1), j]
-        top = np.where(own, self.top[k, j, forwards], self.top[:, j, forwards].max(axis=0))
-        bend = np.where(own, self.relaxed.jerks[k, j], self.relaxed.jerk[j]) / self.relaxed.velocity[j]
-        sound = own | self.fades[after.astype(np.intp), i, j]
-        return top, self.typical[cuts.segment] ** 2 * bend, sound
-
-    def _stop(self, end: int, cuts: Cuts) -> Terms:
-        k, j, sign = cuts.segment, cuts.joint, cuts.sign
+    def _stop(self, kind: Kind, cuts: Cuts) -> Terms:
+        k, j, sign, end = cuts.segment, cuts.joint, cuts.sign, kind.end
         c_v, c_W, c_A, c_J = stop_coefficients(cuts.at[:, :2])
         # with time turned W changes its sign, and the joint comes from where it would go
         c_W = -c_W if end else c_W
-        _require(self.relaxed.has_jerk[j] | (c_J == 0.0))
+        require(self.relaxed.has_jerk[j] | (c_J == 0.0))
         side = ((sign > 0.0) != bool(end)).astype(int)  # of the limit: 0 lower, 1 upper
         room = self.room[k, end, j, side] / self.typical[k]
         ramp, bend = self.ramp[k, j], self.bend[k, j]
         away = self.ramps[k, j, 1 - side]  # the acceleration that points away from the limit
-        columns = [self.v[k + end, j], self.W[k, j, end], self.inverse[k], self.T[k], self.square[k]]
-        a = [sign * c_v, sign * c_W * ramp, -room, -c_A * away, -c_J * bend]
-        columns.append(np.maximum(self.p[k, j, end], 0))
+        column, of_room, upper = self._anchored(kind, cuts, -room, np.zeros(len(k)))
+        T, square, v, W, p = self.parts[kind.times_T]
+        columns = [v[k, j, end], W[k, j, end], column, T[k], square[k]]
+        a = [sign * c_v, sign * c_W * ramp, of_room, -c_A * away, -c_J * bend]
+        columns.append(np.maximum(p[k, j, end], 0))
         a.append(np.where(side == 1, 1.0, -1.0) * self.shift[k, j, end])
-        return self._rows(columns, a, np.zeros(len(k)))
+        return self._rows(columns, a, upper)
 
     def _speed(self, cuts: Cuts) -> Terms:
         k, j, sign = cuts.segment, cuts.joint, cuts.sign
         c_W0, c_W1, c_A, c_J = speed_coefficients(cuts.at[:, :2])
-        _require(self.relaxed.has_jerk[j] | (c_J == 0.0))
+        require(self.relaxed.has_jerk[j] | (c_J == 0.0))
         ramp, bend = self.ramp[k, j], self.bend[k, j]
-        columns = [self.v[k + 1, j], self.v[k, j], self.W[k, j, 0], self.W[k, j, 1]]
+        start, end = self.relaxed.legs[k].T
+        columns = [self.v[end, j], self.v[start, j], self.W[k, j, 0], self.W[k, j, 1]]
         a = [sign, -sign, -sign * c_W0 * ramp, -sign * c_W1 * ramp]
-        a += [-c_A * self.ramps[k, j, _forwards(sign)], -c_J * bend]
+        a += [-c_A * self.ramps[k, j, forwards_of(sign)], -c_J * bend]
         return self._rows([*columns, self.T[k], self.square[k]], a, np.zeros(len(k)))
 
-    def _distance(self, cruises: bool, cuts: Cuts) -> Terms:
-        k, j, sign = cuts.segment, cuts.joint, cuts.sign
+    def _distance(self, kind: Kind, cuts: Cuts) -> Terms:
+        k, j, sign, cruises = cuts.segment, cuts.joint, cuts.sign, kind in CRUISES
         c_v0, c_W0, c_v1, c_W1, c_V, _, c_J = distance_coefficients(cuts.at, cruises)
         rising, falling = arc_coefficients(cuts.at, cruises)
-        _require(self.relaxed.has_jerk[j] | (c_J == 0.0))
-        ramp, bend, forwards = self.ramp[k, j], self.bend[k, j], _forwards(sign)
+        require(self.relaxed.has_jerk[j] | (c_J == 0.0))
+        ramp, bend, forwards = self.ramp[k, j], self.bend[k, j], forwards_of(sign)
         arcs = rising * self.ramps[k, j, forwards] + falling * self.ramps[k, j, 1 - forwards]
-        columns = [self.inverse[k], self.v[k, j], self.v[k + 1, j], self.W[k, j, 0], self.W[k, j, 1]]
-        a = [sign * self.distance[k, j], -sign * c_v0, -sign * c_v1, -sign * c_W0 * ramp]
+        column, of_distance, upper = self._anchored(
+            kind, cuts, sign * self.distance[k, j], c_V * self.top[k, j, forwards]
+        )
+        T, square, v, W, p = self.parts[kind.times_T]
+        columns = [column, v[k, j, 0], v[k, j, 1], W[k, j, 0], W[k, j, 1]]
+        a = [of_distance, -sign * c_v0, -sign * c_v1, -sign * c_W0 * ramp]
         a += [-sign * c_W1 * ramp, -arcs, -c_J * bend]
-        columns += [self.T[k], self.square[k]]
+        columns += [T[k], square[k]]
         for end, side in ((0, -sign), (1, sign)):
-            columns.append(np.maximum(self.p[k, j, end], 0))
+            columns.append(np.maximum(p[k, j, end], 0))
             a.append(side * self.shift[k, j, end])  # 0 where there is no zone
-        return self._rows(columns, a, c_V * self.top[k, j, forwards])
-
-    def corner(self, cuts: Cuts, end: int) -> tuple[Array, Array, Array]:
-        """Return the bounds t and e of products (9) and the sign of their rows.
-
-        Parameters
-        ----------
-        cuts : Cuts
-        end : int
-            0 for the start of a segment, 1 for its end.
-
-        Returns
-        -------
-        t, e, sign : Array, shape (m,)
-            In units of ``typical`` and of the acceleration limits.
-        """
-        k, j, corner = cuts.segment, cuts.joint, cuts.at[:, 0]
-        t = np.where(corner % 2 == 0, self.low[k], self.high[k])
-        upper = (corner == 1) | (corner == 2)
-        e = np.where(upper, self.a_high[k + end, j], self.a_low[k + end, j])
-        return t, e, np.where(corner < 2, 1.0, -1.0)
-
-    def _rows(self, columns: list[Indices], coefficients: list[Array], upper: Array) -> Terms:
-        """Rows of w coefficients each, with the allowance for rounding; ``columns[i]`` is (m,)."""
-        where, a = np.stack(columns, axis=1), np.stack(coefficients, axis=1)
-        moduli = np.abs(a)
-        size = (moduli * self._sizes[where]).sum(axis=1) + np.abs(upper)
-        largest = moduli.max(axis=1, initial=0.0)
-        return Terms(where, a, upper + _ALLOWANCE * size, np.ones(len(upper)), largest)
-
-
-def _forwards(sign: Array) -> Indices:
-    """The side of a limit that a sign chooses: 1 forwards, 0 backwards."""
-    return (sign > 0.0).astype(np.intp)
-
-
-def _require(sound: Truths) -> None:
-    """Refuse rows with a term in the jerk limit of a joint that has none."""
-    if not sound.all():
-        raise ValueError("a row needs the jerk limit of a joint that has none")
+        return self._rows(columns, a, upper)

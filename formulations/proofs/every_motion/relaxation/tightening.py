@@ -19,7 +19,14 @@ import numpy as np
 
 from formulations.deadlines import Deadline
 from formulations.proofs.every_motion.relaxation.boxes import Boxes, joined_ends
-from formulations.proofs.every_motion.relaxation.cuts import PRODUCTS, ZONES, Cuts, Kind
+from formulations.proofs.every_motion.relaxation.cuts import (
+    PRODUCTS,
+    SPEED_PRODUCTS,
+    SQUARE_PRODUCTS,
+    ZONES,
+    Cuts,
+    Kind,
+)
 from formulations.proofs.every_motion.relaxation.linear_program import LinearProgram, LPSolution
 from formulations.proofs.every_motion.relaxation.propagation import propagate
 from formulations.proofs.every_motion.relaxation.relaxed_problem import UP
@@ -27,6 +34,7 @@ from formulations.proofs.every_motion.relaxation.rows import Frame
 
 FEW, MANY = 3, 15  # rounds of cuts for one bound: to begin with, and where few gain nothing
 _TOLERANCE = 1e-6
+_AT_WAYPOINTS = ("accelerations", "offsets", "velocities")
 
 
 class Record(Protocol):
@@ -67,14 +75,16 @@ def tighten(
     cuts : Cuts
         Of the last program.
     """
-    wanted = [("durations", k, 0) for k in range(program.frame.K)]
-    for name, kinds in (("accelerations", PRODUCTS), ("offsets", ZONES)):
+    wanted = [("durations", k, 0) for k in _durations_of(program, solution)]
+    for name, kinds in (
+        ("accelerations", (*PRODUCTS, *SQUARE_PRODUCTS)),
+        ("offsets", ZONES),
+        ("velocities", SPEED_PRODUCTS),
+    ):
         wanted += [(name, k, j) for k, j in _with_multiplier(program, solution, kinds)]
     for name, k, j in wanted:
         frame, boxes = program.frame, program.frame.boxes
-        narrowed = {
-            key: getattr(boxes, key).copy() for key in ("durations", "accelerations", "offsets")
-        }
+        narrowed = {key: getattr(boxes, key).copy() for key in ("durations", *_AT_WAYPOINTS)}
         interval = narrowed[name][k] if name == "durations" else narrowed[name][k, j]
         column, unit = _column(frame, name, k, j)
         for side, sign in ((0, 1.0), (1, -1.0)):
@@ -91,7 +101,7 @@ def tighten(
             bound -= sign * (UP - 1.0) * abs(bound)
             interval[side] = max(interval[0], bound) if side == 0 else min(interval[1], bound)
         empty = bool(interval[0] > interval[1])
-        for key in ("accelerations", "offsets"):
+        for key in _AT_WAYPOINTS:
             narrowed[key] = joined_ends(frame.relaxed, narrowed[key])
         boxes = propagate(frame.relaxed, Boxes(**narrowed, empty=empty))
         if record is not None:
@@ -102,17 +112,26 @@ def tighten(
     return program.frame.boxes, program.cuts
 
 
+def _durations_of(program: LinearProgram, solution: LPSolution) -> list[int]:
+    """All segments, and those legs over several whose rows have a multiplier."""
+    y = solution.multipliers[program.n_fixed :]
+    used = program.cuts.segment[y > 1e-9 * np.abs(y).max(initial=0.0)]
+    return [*range(program.frame.K), *np.unique(used[used >= program.frame.K]).tolist()]
+
+
 def _column(frame: Frame, name: str, k: int, j: int) -> tuple[int, float]:
     """The column of a variable and its unit."""
     if name == "durations":
         return int(frame.T[k]), float(frame.typical[k])
     if name == "accelerations":
         return int(frame.a[k, j]), float(frame.relaxed.acceleration[j])
+    if name == "velocities":
+        return int(frame.v[k, j]), float(frame.relaxed.velocity[j])
     return int(frame.e[k, j]), float(frame.relaxed.zones[k, j])
 
 
 def _with_multiplier(
-    program: LinearProgram, solution: LPSolution, kinds: tuple[Kind, Kind]
+    program: LinearProgram, solution: LPSolution, kinds: tuple[Kind, ...]
 ) -> list[tuple[int, int]]:
     """Waypoints and joints whose rows of these kinds have a multiplier."""
     last = program.frame.K
@@ -120,7 +139,7 @@ def _with_multiplier(
     found = set()
     for kind in kinds:
         carries = (cuts.kind == kind) & (y > 1e-9 * np.abs(y).max(initial=0.0))
-        waypoints = cuts.segment[carries] + kind.end
+        waypoints = program.frame.relaxed.legs[cuts.segment[carries], kind.end]
         if program.frame.relaxed.cyclic:
             waypoints = waypoints % last
         found |= set(zip(waypoints.tolist(), cuts.joint[carries].tolist(), strict=True))

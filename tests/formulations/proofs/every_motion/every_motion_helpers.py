@@ -13,7 +13,20 @@ from formulations import FAMILIES, REFERENCES, FreeFormBound, Limits, Problem, T
 from formulations.problem.arrays import Array
 from formulations.proofs.every_motion.closed_forms import least_durations, stop_and_go_durations
 from formulations.proofs.every_motion.relaxation.boxes import Boxes
-from formulations.proofs.every_motion.relaxation.cuts import PRODUCTS, ZONES, Cuts, Kind
+from formulations.proofs.every_motion.relaxation.cuts import (
+    ALL_PRODUCTS,
+    CRUISES,
+    FADES,
+    HULLS,
+    PEAKS,
+    SPEED_PRODUCTS,
+    SQUARE_PRODUCTS,
+    STOPS,
+    TANGENTS,
+    ZONES,
+    Cuts,
+    Kind,
+)
 from formulations.proofs.every_motion.relaxation.relaxed_problem import RelaxedProblem
 from formulations.proofs.every_motion.relaxation.rows import Frame
 from formulations.references.ruckig_ import pieces_of
@@ -135,32 +148,39 @@ def random_cuts(frame: Frame, rng: np.random.Generator, m: int = 80) -> Cuts:
     """Rows of every kind, posed anywhere."""
     found = []
     for kind in Kind:
-        k, j = rng.integers(frame.K, size=m), rng.integers(frame.n, size=m)
+        k, j = rng.integers(frame.L, size=m), rng.integers(frame.n, size=m)
         limited = frame.relaxed.has_jerk[j][:, None]
         low, high = frame.boxes.durations[k].T
         at = np.sort(rng.random((m, 6)) ** rng.choice([0.2, 1.0, 5.0], (m, 1)), axis=1)
         # without a jerk limit: no pieces of jerk
-        late = at[:, 3] if kind == Kind.CRUISE else at[:, 1]
+        late = at[:, 3] if kind in CRUISES else at[:, 1]
         plain = np.stack([0.0 * k, at[:, 1], at[:, 1], late, late, 0.0 * k + 1.0], axis=1)
-        if kind in (Kind.TANGENT, Kind.HULL):
+        if kind in (*TANGENTS, *HULLS):
             at = (low + rng.random(m) ** 3 * (high - low))[:, None]
-        elif kind in (*PRODUCTS, *ZONES):
+        elif kind in ALL_PRODUCTS:
             at = rng.integers(4, size=(m, 1)).astype(np.float64)
         elif kind in (Kind.PEAK_AT_START, Kind.PEAK_AT_END):
             at = (rng.normal(size=m) * frame.relaxed.acceleration[j] / frame.typical[k])[:, None]
+        elif kind in FADES:
+            at = (rng.normal(size=m) * frame.relaxed.acceleration[j])[:, None]
         elif kind == Kind.SPEED:
             at = np.where(limited, at[:, :2], [0.0, 1.0])
-        elif kind in (Kind.STOP_AT_START, Kind.STOP_AT_END):
+        elif kind in STOPS:
             at = np.where(limited, at, plain)[:, :2]
         else:
             at = np.where(limited, at, plain)
         cuts = Cuts.of(kind, k, at, j, rng.choice([-1.0, 1.0], m))
-        if kind in (Kind.PEAK_AT_START, Kind.PEAK_AT_END):
+        if kind in (*PEAKS, *FADES, Kind.CHANGE):
             cuts = cuts[limited[:, 0]]
-        if kind in (Kind.STOP_AT_START, Kind.STOP_AT_END):
+        if kind in STOPS:
             cuts = cuts[np.isfinite(frame.relaxed.room).all(axis=(0, 1, 3))[j]]
         if kind in ZONES:
             cuts = cuts[frame.p[cuts.segment, cuts.joint, kind.end] >= 0]
+        if kind in (*SPEED_PRODUCTS, *SQUARE_PRODUCTS) or kind.times_T:
+            cuts = cuts[frame.short[cuts.segment]]
+        # a joint with a velocity limit only has the row at top speed alone
+        alone = frame.relaxed.by_speed_alone[cuts.joint] & ~np.isin(kind, (*TANGENTS, *HULLS, *ZONES))
+        cuts = cuts[~alone]
         found.append(cuts)
     return Cuts.joined(found)
 
