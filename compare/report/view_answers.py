@@ -97,6 +97,8 @@ def what_is_wrong(given: Assessment) -> str:
         parts.append("not at rest" if found.conditions.none else "not as asked for at ends or stops")
     if found.missed:
         parts.append(_count(len(found.missed), "missed waypoint"))
+    if found.unkept:
+        parts.append(_count(len(found.unkept), "unkept condition"))
     if found.missed_total is not None:
         parts.append("another total time than asked for")
     return "; ".join(parts) or "keeps everything"

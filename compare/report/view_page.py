@@ -17,6 +17,7 @@ from compare.report.judged import FoundTable, fault_tables, holding, opening
 from compare.report.view_answers import answers_of, headline, what_is_wrong
 from compare.report.viewed import Viewed
 from formulations import RUNGS, Limits, Problem
+from formulations.assessment import Assessment
 from formulations.motion.verdict import QUANTITIES
 from formulations.problem.joint_words import factors, shown_unit
 
@@ -57,7 +58,7 @@ def view_page(viewed: Viewed) -> str:
         "file": viewed.file,
         "given": given,
         "opening": [] if given is None else opening(given),
-        "faults": [] if given is None else fault_tables(given),
+        "faults": [] if given is None else [*fault_tables(given), *_unkept(given)],
         "held": None if given is None else holding(given),
         "conditions": sentences(viewed.problem, viewed.conditions),
         "limits": limits_table(problem, problem.limits),
@@ -70,6 +71,12 @@ def view_page(viewed: Viewed) -> str:
         "versions": record["versions"],
     }
     return environment(Path()).get_template("view.html.j2").render(context)
+
+
+def _unkept(given: Assessment) -> list[FoundTable]:
+    """Times, waits and cycles that are not kept, if there are any."""
+    lines = [[line] for line in given.judgement.unkept]
+    return [FoundTable(["condition that is not kept"], lines, ())] if lines else []
 
 
 def limits_table(problem: Problem, limits: Limits) -> FoundTable:

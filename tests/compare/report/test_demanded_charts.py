@@ -6,8 +6,12 @@ import numpy as np
 import pytest
 
 from compare.report.charts.motions import ShownMotion, arm_chart, motions_chart
-from formulations import Conditions, Limits, Problem, Trajectory, plan
+from compare.report.view_answers import what_is_wrong
+from compare.report.view_page import view_page
+from compare.report.viewed import Viewed
+from formulations import Conditions, Limits, Problem, Trajectory, ladder, plan
 from formulations.arms import load_arm
+from formulations.assessment import assess
 from formulations.problem.torque import TorqueLimits
 
 DEG = np.pi / 180.0
@@ -112,3 +116,18 @@ def test_the_speed_of_the_tool_is_that_of_its_path() -> None:
     assert speeds.max() > 0.5
     picture = arm_chart(arm, [given], problem, asked)
     assert picture["balls"] == [[1, 0.05]]
+
+
+def test_a_motion_that_breaks_a_time_alone_is_not_said_to_keep_everything() -> None:
+    asked = Conditions(segment_times={1: (5.0, np.inf)})
+    problem = Problem(POINTS, LIMITS, conditions=asked)
+    hasty = plan(Problem(POINTS, LIMITS), bound=False).found.trajectory
+    assert hasty is not None
+    given = assess(problem, hasty, conditions=asked, bound=False)
+    assert what_is_wrong(given) == "1 unkept condition"
+    viewed = Viewed(ladder(problem, rungs=["displacement"]), None, asked, None, given, "hasty.csv")
+    page = view_page(viewed)
+    assert "hasty.csv breaks what problem asks for: 1 unkept condition" in page
+    assert "condition that is not kept" in page
+    assert given.judgement.unkept[0] in page
+    assert "Position, velocity, acceleration and jerk</h2>" in page
