@@ -1,10 +1,11 @@
 """The search for the fastest motion under limits on the tool.
 
-It starts from the fastest motion without them, slowed down as a whole until its tool is slow enough. Then
-it solves the program on finer and finer steps. The program keeps the tool's speed at samples. Where the
-check finds a larger speed on a step, the limit on that step is lowered by the factor found, and the program
-is solved again from there: an exchange that ends after a few rounds. What is left is mended by a last
-stretch. Every motion is judged by the independent check.
+It starts from the fastest motion without them, slowed down as a whole until its tool is slow enough. Where
+the tool's speed is limited, it starts from its straight lines too (``lines``), as the program finds local
+optima only. It solves the program on finer and finer steps. The program keeps the tool's speed at samples.
+Where the check finds a larger speed on a step, the limit on that step is lowered by the factor found, and
+the program is solved again from there: an exchange that ends after a few rounds. What is left is mended by
+a last stretch. Every motion is judged by the independent check.
 """
 
 from __future__ import annotations
@@ -20,6 +21,7 @@ from formulations.motion.tool_speed import tool_speed
 from formulations.motion.trajectory import Trajectory
 from formulations.motion.verdict import Verdict, check
 from formulations.optima.free_form.stage import Stage
+from formulations.optima.free_form.tool.lines import along_lines
 from formulations.optima.free_form.tool.program import ToolProgram
 from formulations.optima.free_form.tool.stepped import Stepped
 from formulations.problem.arrays import Array, Truths
@@ -119,23 +121,44 @@ class ToolSearch:
             size = d.tool_speed.size * steps * d.problem.dof
             if self.deadline.over or (level and size > _MOST_NODES):
                 break
-            motion, limits = self._exchange(motion, limits, steps, near=1e-4 if level else 1e-2)
+            program = ToolProgram(d, steps, float(motion.h.sum() / d.tool_speed.size))
+            if level:
+                motion, limits = self._exchange(program, motion, limits, near=1e-4)
+            else:
+                motion, limits = self._from_both(program, motion, limits)
             now = np.inf if self.best is None else self.best.verdict.seconds
             if level and before - now <= 0.1 * tolerance * now:
                 break
             before, motion, limits = now, motion.split(), np.repeat(limits, 2)
 
+    def _from_both(self, program: ToolProgram, motion: Stepped, limits: Array) -> tuple[Stepped, Array]:
+        """Solve on the first mesh, from a motion and from the tool's straight lines."""
+        found = self._exchange(program, motion, limits, near=1e-2)
+        if self.deadline.over or not np.isfinite(limits).any():
+            return found
+        before = self.best
+        lines = along_lines(self.demands, self.third, program.steps)
+        # in its own unit of time: in another one the solver finds worse motions
+        own = ToolProgram(
+            self.demands, program.steps, float(lines.h.sum() / len(self.demands.tool_speed))
+        )
+        other = self._exchange(own, lines, limits, near=1e-2, whence=" from straight lines")
+        return found if self.best is before else other
+
     def _exchange(
-        self, motion: Stepped, limits: Array, steps: int, near: float
+        self, program: ToolProgram, motion: Stepped, limits: Array, near: float, whence: str = ""
     ) -> tuple[Stepped, Array]:
         """Solve on one mesh until the check finds no more than the program does.
 
         limits: (S steps,), those on the steps to begin with [m/s]. near: the first barrier parameter.
+        whence: another start, for the names of stages.
         """
+        steps, best = program.steps, np.inf
+        if self.best is not None and not whence:
+            best = self.best.verdict.seconds
         d, chain = self.demands, self.demands.problem.tool
         assert chain is not None
         N = d.tool_speed.size * steps
-        program = ToolProgram(d, steps, float(motion.h.sum() / d.tool_speed.size))
         asked = np.repeat(d.tool_speed, steps)
         for number, weight in enumerate(_WEIGHTS[_FINER * (steps > _MESHES[0]) :]):
             if self.deadline.over:
@@ -143,12 +166,13 @@ class ToolSearch:
             found, converged, status = program.solve(
                 motion, limits, self.deadline, near=near, weight=weight
             )
-            name = f"{steps} steps per segment" + (f", limits lowered {number}" if number else "")
+            lowered = f", limits lowered {number}" if number else ""
+            name = f"{steps} steps per segment{whence}{lowered}"
             before = self.best
             self._offer(name, found, found.assembled(d.waits, d.waypoints), status)
             if self.best is not before:
                 self.converged, self.reason = converged, "" if converged else status
-            best = np.inf if self.best is None else self.best.verdict.seconds
+            best = min(best, self.stages[-1].seconds)
             if not converged or self.stages[-1].seconds > _WORSE * best:
                 break
             motion = found
