@@ -1,6 +1,7 @@
 """Limits on the tool that a certificate states, and the least times of the segments that follow.
 
-chain        the chain of fixed poses and joints from base to tool: its point, slopes and curvature
-least_times  the distance between the tool points of two waypoints, over the tool's speed
+link         one joint between fixed poses
+chain        the chain of links from base to tool: its point, slopes and curvature, and all that it can reach
+least_times  the way between the tool points of two waypoints, over the tool's speed
 words        both for people
 """

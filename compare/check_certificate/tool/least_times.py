@@ -30,7 +30,8 @@ from flint import arb_mat
 from compare.check_certificate.answers import BadInput, need
 from compare.check_certificate.balls import R, least, most
 from compare.check_certificate.reading import index, items, number
-from compare.check_certificate.tool.chain import ClaimedChain, length
+from compare.check_certificate.tool.chain import ClaimedChain
+from compare.check_certificate.tool.link import length
 
 if TYPE_CHECKING:
     from compare.check_certificate.demands import ClaimedDemands
@@ -40,7 +41,7 @@ MOST_PLACES = 100  # on one segment
 
 
 @dataclass
-class Places:
+class ClaimedPlaces:
     """The places that the tool has to pass on a segment.
 
     joint: that passes the values. vectors: one more than values, arb_mat (1, 3).
@@ -64,7 +65,7 @@ class ClaimedTool:
     points: list[list[Any]]
     speed: list[Any]
     radius: list[Any]
-    places: dict[int, Places]
+    places: dict[int, ClaimedPlaces]
     slack: Any
 
 
@@ -102,13 +103,13 @@ def read_tool(raw: Any, points: list[list[Any]], slack: Any) -> ClaimedTool:
     return ClaimedTool(chain, points, speed, radius, places, slack)
 
 
-def _places(joint: int, values: Any, vectors: Any) -> Places:
+def _places(joint: int, values: Any, vectors: Any) -> ClaimedPlaces:
     """Read places; vectors that are longer than 1 are refused."""
     numbers = [number(x) for x in items(values, 1, MOST_PLACES)]
     steps = items(vectors, len(numbers) + 1, len(numbers) + 1)
     found = [arb_mat([[number(x) for x in items(row, 3, 3)]]) for row in steps]
     need(all(length(x.transpose()) <= 1 for x in found), "a vector of the tool's places is too long")
-    return Places(joint, numbers, found)
+    return ClaimedPlaces(joint, numbers, found)
 
 
 def with_tool_times(demands: ClaimedDemands) -> ClaimedDemands:
@@ -188,7 +189,7 @@ def tool_ways(demands: ClaimedDemands, tool: ClaimedTool) -> list[Any]:
     def point(i: int) -> Any:
         return arb_mat([[moved[i][row, 0]] for row in range(3)])
 
-    def by_places(k: int, places: Places) -> Any:
+    def by_places(k: int, places: ClaimedPlaces) -> Any:
         """The way by the places of a segment."""
         _require_passed(demands, k, places)
         first, last = places.vectors[0], places.vectors[-1]
@@ -220,7 +221,7 @@ def _reach(demands: ClaimedDemands, tool: ClaimedTool) -> list[Any]:
     ]
 
 
-def _require_passed(demands: ClaimedDemands, k: int, places: Places) -> None:
+def _require_passed(demands: ClaimedDemands, k: int, places: ClaimedPlaces) -> None:
     """Refuse places that the joint need not pass on a segment, in this order."""
     (a, b), (c, d) = (demands.waypoints[i][places.joint] for i in (k, k + 1))
     need(

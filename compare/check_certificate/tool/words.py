@@ -5,8 +5,8 @@ from __future__ import annotations
 from typing import TYPE_CHECKING, Any
 
 from compare.check_certificate.balls import R
-from compare.check_certificate.tool.chain import Link, Pose
 from compare.check_certificate.tool.least_times import ClaimedTool, tool_ways
+from compare.check_certificate.tool.link import Link, Pose
 
 if TYPE_CHECKING:
     from compare.check_certificate.demands import ClaimedDemands

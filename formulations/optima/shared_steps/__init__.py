@@ -2,6 +2,7 @@
 
 program        the nonlinear program on steps that all joints share
 tool_symbols   the tool point and its speed as CasADi functions
+lines          a start with the tool on straight lines
 steps          motions as steps: sampled as a start, slowed down, assembled to a trajectory
 search         slowed-down motion, program, margins; the best that passes the check
 answer         what ``free_form`` answers
