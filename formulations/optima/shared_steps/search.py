@@ -1,10 +1,10 @@
 """The search for the fastest motion under limits on the tool, torque limits, or both.
 
 First comes the fastest motion without them. Where it keeps them, it is the answer. Else it is slowed down as
-little as possible, and the program on shared steps starts from there; where the tool's speed is limited, from its straight
-lines too, as the program finds local optima only. Between its nodes a torque or the tool's
-speed may exceed its limit by a little: margins are raised where they do, and the program is solved again. Every
-motion is judged by the check, and the fastest one that passes is the answer.
+little as possible, and the program on shared steps starts from there. Where the tool's speed is limited it starts
+from the tool's straight lines too, as it finds local optima only. Between its nodes a torque or the tool's speed
+may exceed its limit by a little: margins are raised where they do, and the program is solved again. Every motion
+is judged by the check, and the fastest one that passes is the answer.
 """
 
 from __future__ import annotations
