@@ -23,9 +23,10 @@ from formulations.problem.demands import Demands
 from formulations.problem.problem import Problem
 
 _LONGER = (1.001, 1.004, 1.015, 1.05, 1.15)  # factors on all steps, tried in this order
-_ROUNDS = 4  # of raising margins
+_ROUNDS = 6  # of raising margins
 _STEPS, _FEWEST = 14, 4  # per segment, where those of the motion cannot be taken
-_SHARE = 1e-6  # of the limits on torques and on the tool's speed, left for rounding
+_SHARE = 1e-6  # of the torque limits, left for rounding
+_SLOWER = 3e-4  # of the tool's speed: no stretch mends what the rounds leave
 
 
 class MotionAtPoints(NamedTuple):
@@ -64,7 +65,7 @@ def at_points(
         velocity=given.velocity * left[0][:, None],
         acceleration=given.acceleration * left[1][:, None],
         jerk=given.jerk * left[2],
-        tool_speed=given.tool_speed * (1.0 - _SHARE),
+        tool_speed=given.tool_speed * (1.0 - _SLOWER),
     )
     search = StepSearch(demands, NEVER, None)
     period = 1e-9 if rate is None else 1.0 / rate
@@ -91,10 +92,10 @@ def _steps_of(trajectory: Trajectory, demands: Demands, period: float) -> Steps:
     """The steps of the motion, if each segment has as many and none is shorter than a period."""
     S, n = len(demands.jerk), len(trajectory.durations)
     passed = np.searchsorted(trajectory.breaks, trajectory.passage_times - 0.5 * period)
-    if n % S == 0 and n // S >= _FEWEST and (np.diff(passed) == n // S).all():
-        if trajectory.durations.min() > 2.0 * period:
-            states = np.stack([trajectory.at(trajectory.breaks, order) for order in range(3)])
-            return Steps(trajectory.durations.reshape(S, n // S), states)
+    even = n % S == 0 and n // S >= _FEWEST and bool((np.diff(passed) == n // S).all())
+    if even and trajectory.durations.min() > 2.0 * period:
+        states = np.stack([trajectory.at(trajectory.breaks, order) for order in range(3)])
+        return Steps(trajectory.durations.reshape(S, n // S), states)
     shortest = int(np.diff(trajectory.passage_times).min() / (2.0 * period))
     return sampled(trajectory, demands, int(np.clip(shortest, _FEWEST, _STEPS)))
 

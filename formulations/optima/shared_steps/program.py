@@ -313,7 +313,9 @@ class StepProgram:
             given = start.durations / self.second
             mean = np.broadcast_to(given.mean(axis=1, keepdims=True), given.shape)
             low_h, high_h = (given, given) if fixed else (mean / _UNEVEN, mean * _UNEVEN)
-            x_low[: given.size] = low_h.ravel() if fixed else np.maximum(low_h.ravel(), x_low[: given.size])
+            x_low[: given.size] = (
+                low_h.ravel() if fixed else np.maximum(low_h.ravel(), x_low[: given.size])
+            )
             x_high[: given.size] = high_h.ravel()
         answer = self._solver.solve(
             deadline,
