@@ -93,6 +93,8 @@ def at_rate(
     asked = problem.conditions if conditions is None else conditions
     require_kept(asked)
     require_exportable(problem, trajectory.seconds, rate)
+    if asked.on_tool or asked.torque is not None:
+        return _under_tied_limits(problem, trajectory, rate, asked)
     verdict = None
     for patience in _EXTRA if rate is not None else _STRETCHES:
         grid = (
@@ -106,11 +108,28 @@ def at_rate(
         verdict = check(problem, found.trajectory, conditions=asked)
         if verdict.feasible:
             return found
-    reason = "" if verdict is None else f"; the last one: {verdict.faults[0]}"
+    raise _none(rate, "" if verdict is None else f"; the last one: {verdict.faults[0]}")
+
+
+def _none(rate: float | None, reason: str = "") -> NoFeasibleMotion:
     points = "at the switching times" if rate is None else f"at {rate:g} points per second"
-    raise NoFeasibleMotion(
+    return NoFeasibleMotion(
         f"no motion with its jerk constant between points {points} was found{reason}"
     )
+
+
+def _under_tied_limits(
+    problem: Problem, trajectory: Trajectory, rate: float | None, asked: Conditions
+) -> AtPoints:
+    """Limits on tool and torques tie the joints together: one program for all of them."""
+    from formulations.optima.shared_steps.at_points import at_points
+
+    least = 1.0 / rate if rate is not None else float(trajectory.durations.min())
+    shares = margins(problem, trajectory.seconds, least)
+    found = at_points(problem, trajectory, rate, asked, shares)
+    if found is None:
+        raise _none(rate)
+    return AtPoints(*found, float(shares[:, problem.moving_joints].max(initial=0.0)))
 
 
 def _solve(

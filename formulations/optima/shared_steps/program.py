@@ -67,7 +67,14 @@ class StepProgram:
         Limits of the tool's speed on the steps [m/s].
     """
 
-    def __init__(self, demands: Demands, dynamics: ArmDynamics | None, start: Steps) -> None:
+    def __init__(
+        self,
+        demands: Demands,
+        dynamics: ArmDynamics | None,
+        start: Steps,
+        *,
+        smoothest: bool = False,
+    ) -> None:
         """Pose the program.
 
         Parameters
@@ -77,8 +84,12 @@ class StepProgram:
             None without torque limits.
         start : Steps
             Its number of steps is taken, and its times are the units.
+        smoothest : bool
+            Whether the smoothest motion is asked for, as where the total time is given.
         """
         self.demands, self.dynamics, self.start = demands, dynamics, start
+        low, high = demands.passages[-1]
+        self.smoothest = smoothest or bool(np.isfinite(high) and low == high)
         self.S, self.M = start.durations.shape
         self.dof = start.states.shape[2]
         self.second = float(start.durations.sum()) / self.S
@@ -154,8 +165,8 @@ class StepProgram:
         self._uneven = self._n_rows  # these rows are opened once even steps are solved
         self._row(even[1:, :] - even[:-1, :], 0.0, 0.0)
         cost = casadi.sum2(h)
-        if np.isfinite(asked.passages[-1, 1]) and asked.passages[-1, 0] == asked.passages[-1, 1]:
-            cost = casadi.sum1(casadi.vec((a1 - a0) ** 2 / H))  # the total time is given: the smoothest
+        if self.smoothest:
+            cost = casadi.sum1(casadi.vec((a1 - a0) ** 2 / H))
         rows_of_all = casadi.vertcat(*(column for column, _, _ in self._rows))
         self._nlp = {"x": self._symbols, "p": casadi.MX(0, 1), "f": cost, "g": rows_of_all}
         self._low, self._high = self._bounds()
@@ -260,7 +271,9 @@ class StepProgram:
         asked = np.repeat(self.demands.tool_speed, self.M)
         self.speeds = np.minimum(asked, self.speeds / np.maximum(factors, _RAISED))
 
-    def solve(self, start: Steps, *, even: bool, deadline: Deadline = NEVER) -> tuple[Steps, bool, str]:
+    def solve(
+        self, start: Steps, *, even: bool, fixed: bool = False, deadline: Deadline = NEVER
+    ) -> tuple[Steps, bool, str]:
         """Solve the program with the margins at hand.
 
         Parameters
@@ -269,6 +282,8 @@ class StepProgram:
             Of this program's shape.
         even : bool
             Whether all steps of a segment last equally long.
+        fixed : bool
+            Whether all steps last as long as those of the start.
         deadline : Deadline
             How long IPOPT may take.
 
@@ -295,10 +310,13 @@ class StepProgram:
             n = self.S * (self.M - 1)
             low[self._uneven : self._uneven + n] = -np.inf
             high[self._uneven : self._uneven + n] = np.inf
-            mean = start.durations.mean(axis=1, keepdims=True) / self.second
-            steps = np.repeat(mean, self.M, axis=1).ravel()
-            x_low[: len(steps)] = np.maximum(steps / _UNEVEN, x_low[: len(steps)])
-            x_high[: len(steps)] = steps * _UNEVEN
+            given = start.durations / self.second
+            mean = np.broadcast_to(given.mean(axis=1, keepdims=True), given.shape)
+            low_h, high_h = (given, given) if fixed else (mean / _UNEVEN, mean * _UNEVEN)
+            x_low[: given.size] = (
+                low_h.ravel() if fixed else np.maximum(low_h.ravel(), x_low[: given.size])
+            )
+            x_high[: given.size] = high_h.ravel()
         answer = self._solver.solve(
             deadline,
             x0=np.clip(x, x_low, x_high),

@@ -183,14 +183,27 @@ class StepSearch:
                 self.converged, steps = True, found
                 if self.stages[-1].seconds <= (1.0 + _WORTH) * motion.seconds:
                     break
-                excess = self._excess(found)
-                if excess.max() <= _KEPT:  # the check has found more than the samples
-                    torques = [peak for peak in verdict.peaks if peak.quantity == "torque"]
-                    for peak in torques:
-                        excess[peak.joint] += max(peak.factor - 1.0, 0.0)
-                program.margins += _MORE * excess
-                program.lower(self._faster(found))
+                self.tighten(program, found, verdict)
         return steps
+
+    def tighten(self, program: StepProgram, found: Steps, verdict: Verdict) -> None:
+        """Raise margins and lower speeds of a program where its motion exceeds limits between nodes.
+
+        Parameters
+        ----------
+        program : StepProgram
+        found : Steps
+            Its solution.
+        verdict : Verdict
+            On its motion.
+        """
+        excess = self._excess(found)
+        if excess.max() <= _KEPT:  # the check has found more than the samples
+            for peak in verdict.peaks:
+                if peak.quantity == "torque":
+                    excess[peak.joint] += max(peak.factor - 1.0, 0.0)
+        program.margins += _MORE * excess
+        program.lower(self._faster(found))
 
     def _excess(self, steps: Steps) -> Array:
         """By what share torques exceed their limits next to each node, (dof, S M + 1)."""
