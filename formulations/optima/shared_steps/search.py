@@ -1,10 +1,9 @@
 """The search for the fastest motion under limits on the tool, torque limits, or both.
 
 First comes the fastest motion without them. Where it keeps them, it is the answer. Else it is slowed down as
-little as possible, and the program on shared steps starts from there. Where the tool's speed is limited it starts
-from the tool's straight lines too, as it finds local optima only. Between its nodes a torque or the tool's speed
-may exceed its limit by a little: margins are raised where they do, and the program is solved again. Every motion
-is judged by the check, and the fastest one that passes is the answer.
+little as possible, and the program on shared steps starts from there. Between its nodes a torque or the tool's
+speed may exceed its limit by a little: margins are raised where they do, and the program is solved again. Every
+motion is judged by the check, and the fastest one that passes is the answer.
 """
 
 from __future__ import annotations
@@ -21,7 +20,6 @@ from formulations.motion.tool_speed import tool_speed
 from formulations.motion.trajectory import Trajectory
 from formulations.motion.verdict import Verdict, check
 from formulations.optima.free_form.stage import Stage
-from formulations.optima.shared_steps.lines import along_lines
 from formulations.optima.shared_steps.program import StepProgram
 from formulations.optima.shared_steps.steps import Steps, sampled
 from formulations.problem.arrays import Array
@@ -148,24 +146,15 @@ class StepSearch:
         if self.best is not None:
             still = float(self.demands.waits.sum())
             factor = (self.best[1].seconds - still) / (start.seconds - still)
-        steps = self._from_both(steps.stretched(factor), meshes[0])
-        for mesh in meshes[1:]:
+        steps = steps.stretched(factor)
+        for mesh in meshes:
             if self.deadline.over:
                 return
             if steps.durations.shape[1] != mesh:
                 steps = sampled(steps.assembled(self.demands), self.demands, mesh)
             steps = self._round(steps, mesh)
 
-    def _from_both(self, slowed: Steps, mesh: int) -> Steps:
-        """Solve from a motion that was slowed down, and from the tool's straight lines."""
-        found = self._round(slowed, mesh)
-        if self.deadline.over or not np.isfinite(self.demands.tool_speed).any():
-            return found
-        before = self.best
-        other = self._round(along_lines(self.demands, mesh), mesh, " from straight lines")
-        return found if self.best is before else other
-
-    def _round(self, steps: Steps, mesh: int, whence: str = "") -> Steps:
+    def _round(self, steps: Steps, mesh: int) -> Steps:
         """Solve on even steps, then on uneven ones, raising margins where limits are exceeded."""
         program = StepProgram(self.demands, self.dynamics, steps)
         for even, rounds in _ROUNDS.items():
@@ -175,7 +164,7 @@ class StepSearch:
                 found, converged, status = program.solve(steps, even=even, deadline=self.deadline)
                 if not np.isfinite(found.states).all():
                     break
-                name = f"program on {mesh} {'even' if even else 'uneven'} steps, round {attempt + 1}{whence}"
+                name = f"program on {mesh} {'even' if even else 'uneven'} steps, round {attempt + 1}"
                 motion = found.assembled(self.demands)
                 verdict = self.offer(name, motion, found, status)
                 if not converged:
