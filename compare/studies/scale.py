@@ -92,8 +92,10 @@ def answered_here(
 
     Parameters
     ----------
-    joints, waypoints, step, seed
+    joints, waypoints : int
+    step : float [rad]
         As of ``random_walk``.
+    seed : int
     gap : float
         Relative gap at which the proof ends.
     time_limit : float [s]
@@ -163,7 +165,10 @@ def calls(
     joints : int
     counts : sequence of int
         Numbers of waypoints.
-    step, seed, gap, time_limit
+    step : float [rad]
+    seed : int
+    gap : float
+    time_limit : float [s]
         As of ``answered_here``.
 
     Returns

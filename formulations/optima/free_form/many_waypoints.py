@@ -88,7 +88,8 @@ def found_in_linear_time(
     tolerance : float
         Relative, of the total time; at least 1e-5.
     deadline : Deadline
-        After it the best motion so far is the answer; the first one is stop and go.
+        After it the best motion so far is the answer; the first one is stop and go, or a smooth timing of a
+        dense path.
     progress : callable, optional
         Called as ``progress(stage, seconds)`` whenever a faster motion was found.
 
@@ -99,7 +100,8 @@ def found_in_linear_time(
     """
     clock = time.perf_counter()
     descent = ChainDescent(problem, deadline)
-    stages = [Stage("stop and go", descent.seconds, "", time.perf_counter() - clock)]
+    start = "smooth timing" if descent.dense else "stop and go"
+    stages = [Stage(start, descent.seconds, "", time.perf_counter() - clock)]
     clock = time.perf_counter()
 
     def say(seconds: float) -> None:

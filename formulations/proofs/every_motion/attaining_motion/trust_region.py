@@ -8,7 +8,7 @@ from __future__ import annotations
 
 import numpy as np
 
-from formulations.problem.arrays import Array
+from formulations.problem.arrays import Array, Truths
 from formulations.proofs.every_motion.attaining_motion.chain_columns import ChainColumns
 from formulations.proofs.every_motion.attaining_motion.reach_rows import ChainPoint
 from formulations.proofs.every_motion.relaxation.relaxed_problem import RelaxedProblem
@@ -58,10 +58,10 @@ class TrustRegion:
             What may be missed beyond that anyway.
         """
         foreseen = foreseen[:, None]
-        bad = missing - foreseen > np.maximum(
+        bad: Truths = missing - foreseen > np.maximum(
             0.5 * np.maximum(before, foreseen), max(allowed, _NOTHING)
         )
-        self.width = _changed(self.width, bad.any(axis=1), _WIDEST)
+        self.width = _changed(self.width, np.asarray(bad.any(axis=1)), _WIDEST)
         touched = np.zeros(self.reach.shape, dtype=bool)
         touched[:-1] |= bad
         touched[1:] |= bad
@@ -90,5 +90,5 @@ class TrustRegion:
         return box
 
 
-def _changed(radius: Array, bad: Array, widest: float) -> Array:
+def _changed(radius: Array, bad: Truths, widest: float) -> Array:
     return np.where(bad, radius * _NARROWER, np.minimum(radius * _WIDER, widest))

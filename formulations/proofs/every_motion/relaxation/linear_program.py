@@ -25,7 +25,7 @@ from formulations.proofs.every_motion.relaxation.rows import Frame
 from formulations.proofs.every_motion.relaxation.safe_dual import safe_bound
 from formulations.proofs.every_motion.relaxation.separation import separate
 
-_OPTIONS = {
+OPTIONS = {
     "output_flag": False,
     "threads": 1,
     "small_matrix_value": 1e-12,  # HiGHS drops coefficients below this
@@ -122,7 +122,7 @@ class LinearProgram:
         """
         self.frame, self._for_checker = frame, for_checker
         self.highs = highspy.Highs()
-        for option, value in _OPTIONS.items():
+        for option, value in OPTIONS.items():
             self.highs.setOptionValue(option, value)
         # the simplex method may cycle from an old basis: then the next attempt starts from scratch
         self.highs.setOptionValue("simplex_iteration_limit", 5_000 + 50 * frame.size)
@@ -289,6 +289,26 @@ class LinearProgram:
         bound = np.inf if empty else self._bound(cost, y)
         reason = self.highs.modelStatusToString(self.highs.getModelStatus())
         return LPSolution(status, reason, x, y, bound, converged, empty)
+
+    def proved(self, cost: Array, x: Array, multipliers: Array) -> LPSolution:
+        """Say what multipliers from elsewhere prove.
+
+        Parameters
+        ----------
+        cost : Array, shape (size,)
+        x : Array, shape (size,)
+        multipliers : Array, shape (n_rows,)
+            Those of later rows are 0.
+
+        Returns
+        -------
+        LPSolution
+        """
+        y = np.zeros(len(self.rows))
+        y[: len(multipliers)] = multipliers
+        y = self._kept(y)
+        bound = self._bound(cost, y)
+        return LPSolution(LPStatus.OPTIMAL, "in a window", x, y, bound, False, False)
 
     def _kept(self, y: Array) -> Array:
         """The multipliers that a proof keeps."""

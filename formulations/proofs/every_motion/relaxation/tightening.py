@@ -18,6 +18,7 @@ from typing import Protocol
 import numpy as np
 
 from formulations.deadlines import Deadline
+from formulations.problem.arrays import Array
 from formulations.proofs.every_motion.relaxation.boxes import Boxes, joined_ends
 from formulations.proofs.every_motion.relaxation.cuts import (
     PRODUCTS,
@@ -31,6 +32,7 @@ from formulations.proofs.every_motion.relaxation.linear_program import LinearPro
 from formulations.proofs.every_motion.relaxation.propagation import propagate
 from formulations.proofs.every_motion.relaxation.relaxed_problem import UP
 from formulations.proofs.every_motion.relaxation.rows import Frame
+from formulations.proofs.every_motion.relaxation.windows import HALF, Window, solve_in_windows, suits
 
 FEW, MANY = 3, 15  # rounds of cuts for one bound: to begin with, and where few gain nothing
 _TOLERANCE = 1e-6
@@ -75,6 +77,8 @@ def tighten(
     cuts : Cuts
         Of the last program.
     """
+    if suits(program.frame):
+        return _tighten_in_windows(program, solution, deadline, record, rounds)
     wanted = [("durations", k, 0) for k in _durations_of(program, solution)]
     for name, kinds in (
         ("accelerations", (*PRODUCTS, *SQUARE_PRODUCTS)),
@@ -97,9 +101,7 @@ def tighten(
                 record.narrowed(program, column, side, found)
             if found.empty:
                 return Boxes(**narrowed, empty=True), program.cuts
-            bound = sign * found.bound * unit
-            bound -= sign * (UP - 1.0) * abs(bound)
-            interval[side] = max(interval[0], bound) if side == 0 else min(interval[1], bound)
+            _narrow(interval, side, found.bound * unit)
         empty = bool(interval[0] > interval[1])
         for key in _AT_WAYPOINTS:
             narrowed[key] = joined_ends(frame.relaxed, narrowed[key])
@@ -117,6 +119,53 @@ def _durations_of(program: LinearProgram, solution: LPSolution) -> list[int]:
     y = solution.multipliers[program.n_fixed :]
     used = program.cuts.segment[y > 1e-9 * np.abs(y).max(initial=0.0)]
     return [*range(program.frame.K), *np.unique(used[used >= program.frame.K]).tolist()]
+
+
+def _tighten_in_windows(
+    program: LinearProgram,
+    solution: LPSolution,
+    deadline: Deadline,
+    record: Record | None,
+    rounds: int,
+) -> tuple[Boxes, Cuts]:
+    """Narrow the boxes in the middle of windows that do not overlap, then those of the next ones."""
+    for first in range(2 * HALF + 1):
+        frame, boxes = program.frame, program.frame.boxes
+        accelerations = set(_with_multiplier(program, solution, PRODUCTS))
+        middles = range(first, frame.K, 2 * HALF + 1)
+        windows = {k: Window(program, solution.multipliers, k) for k in middles}
+        narrowed = {key: getattr(boxes, key).copy() for key in ("durations", *_AT_WAYPOINTS)}
+        for name, j in (("durations", 0), *(("accelerations", j) for j in range(frame.n))):
+            here = [k for k in middles if name == "durations" or (k, j) in accelerations]
+            places = [_column(frame, name, k, j) for k in here]
+            for side, sign in ((0, 1.0), (1, -1.0)):
+                costs = [sign * (np.arange(frame.size) == column) for column, _ in places]
+                mine = [windows[k] for k in here]
+                answers = solve_in_windows(program, mine, costs, solution.x, rounds, deadline)
+                for k, (column, unit), found in zip(here, places, answers, strict=True):
+                    if found is None:
+                        continue
+                    if record is not None:
+                        record.narrowed(program, column, side, found)
+                    interval = narrowed[name][k] if name == "durations" else narrowed[name][k, j]
+                    _narrow(interval, side, found.bound * unit)
+        empty = bool((narrowed["durations"][:, 0] > narrowed["durations"][:, 1]).any())
+        empty |= bool((narrowed["accelerations"][..., 0] > narrowed["accelerations"][..., 1]).any())
+        boxes = propagate(frame.relaxed, Boxes(**narrowed, empty=empty))
+        if record is not None:
+            record.renewed()
+        program = program.renewed(boxes)
+        if boxes.empty or deadline.over:
+            break
+        solution = program.solve(frame.cost, rounds=rounds, tolerance=_TOLERANCE, deadline=deadline)
+    return program.frame.boxes, program.cuts
+
+
+def _narrow(interval: Array, side: int, bound: float) -> None:
+    """Narrow an interval from below (0), or from above (1) by the bound of what is turned round."""
+    bound = bound if side == 0 else -bound
+    bound -= (1.0 - 2.0 * side) * (UP - 1.0) * abs(bound)
+    interval[side] = max(interval[0], bound) if side == 0 else min(interval[1], bound)
 
 
 def _column(frame: Frame, name: str, k: int, j: int) -> tuple[int, float]:

@@ -99,16 +99,30 @@ def test_slopes_are_those_of_difference_quotients():
         assert (slack - there) / 1e-6 == pytest.approx(slopes[:, i], abs=1e-4)
 
 
-def test_a_dense_path_is_not_traversed_in_stops():
-    """Far from the fastest motion yet, but several times faster than stop and go."""
-    problem = Problem(
-        np.outer(np.arange(80), [1e-3, 5e-4, -8e-4]),
-        Limits.of(velocity=2.0, acceleration=5.0, jerk=50.0, dof=3),
-    )
-    found = free_form(problem, time_limit=3.0)
+LIMITS = Limits.of(velocity=2.0, acceleration=5.0, jerk=50.0, dof=3)
+LINE = np.array([1.0, 0.5, -0.8])
+
+
+@pytest.mark.parametrize(("count", "step"), [(80, 1e-3), (200, 1e-4)])
+def test_a_dense_line_takes_the_time_between_its_ends(count, step):
+    """Without a corner the points between the ends cost nothing: 4 cbrt(d / 2 J) of the longest joint."""
+    problem = Problem(np.outer(np.arange(count) * step, LINE), LIMITS)
+    found = free_form(problem, time_limit=20.0)
     assert check(problem, found.trajectory).feasible
     assert found.method == many_waypoints.NAME
-    assert found.seconds < 0.4 * 80 * (32.0 * 1e-3 / 50.0) ** (1.0 / 3.0)
+    least = 4.0 * np.cbrt((count - 1) * step / (2.0 * 50.0))
+    assert least * (1.0 - 1e-6) <= found.seconds <= least * (1.0 + 5e-3)
+
+
+def test_a_dense_path_with_a_corner_beside_the_program_of_the_whole_motion(monkeypatch):
+    way = np.concatenate([np.zeros((1, 3)), np.repeat([LINE, -LINE[::-1]], 24, axis=0)])
+    problem = Problem(1e-3 * np.cumsum(way, axis=0), LIMITS)
+    monkeypatch.setattr(many_waypoints, "_WIDE", 1)
+    found = free_form(problem)
+    assert found.method == many_waypoints.NAME
+    assert found.status is SearchStatus.OK
+    monkeypatch.setattr(many_waypoints, "MANY", 10_000)
+    assert found.seconds <= free_form(problem).seconds * (1.0 + 1e-2)
 
 
 @pytest.mark.slow
