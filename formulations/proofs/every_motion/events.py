@@ -16,7 +16,7 @@ Where segments may take no time, ["S", ...], ["T", ...], ["C", ...], ["D", ...],
 the rows of the small letters times T, and these are posed besides:
 
     ["g", joint, segment, end, corner, y], ["x", ...]  products T v and T^2 a, as "w"       (9)
-    ["V", joint, waypoint, sign, a, y]  at an acceleration (10)    ["j", joint, segment, sign, y]  (12)
+    ["V", joint, waypoint, sign, a, y]  at an acceleration (10)    ["j", joint, segment, sign, y]  (14)
     ["e", segment, sign, y]  the time of a leg over several segments is that of the segments
 
 In place of a segment stands the pair of waypoints at the ends of a leg over several segments.

@@ -32,7 +32,7 @@ class Kind(IntEnum):
     SQUARE_PRODUCT_AT_END = 16
     FADE_AT_START = 17  # (10) at an acceleration
     FADE_AT_END = 18
-    CHANGE = 19  # (12)
+    CHANGE = 19  # (14)
     TANGENT_TIMES_T = 20  # rows times T
     HULL_TIMES_T = 21
     DISTANCE_TIMES_T = 22

@@ -1,9 +1,8 @@
-"""Which waypoints the relaxation keeps: those that a motion cannot pass at one time with the one before.
+"""Which waypoints the relaxation keeps: all but those that ask for nothing, and those that it is told.
 
 A motion with a waypoint less can only be faster, so that leaving one out proves no more than is true. It is
-necessary where nothing forces time between two waypoints, since 1 / T would have no bound. It is useful
-where a motion passes through a zone on its way: then many positions and times there belong to a fastest
-motion, and no narrow box holds them all.
+useful where a motion passes through a zone on its way: then many positions and times there belong to a
+fastest motion, and no narrow box holds them all.
 """
 
 from __future__ import annotations

@@ -49,19 +49,44 @@ class LegLimits:
     """Limits and times of legs, from those of the problem's segments on them."""
 
     def __init__(self, legs: Indices) -> None:
+        """Take the legs as slices of the problem's segments.
+
+        Parameters
+        ----------
+        legs : Indices, shape (L, 2)
+            The problem's waypoints at their ends.
+        """
         self.parts = [slice(i, k) for i, k in legs.tolist()]
 
     def _each(self, of: Callable[[slice], Array], shape: tuple[int, ...]) -> Array:
         return np.array([of(part) for part in self.parts]).reshape(len(self.parts), *shape)
 
     def hull(self, intervals: Array) -> Array:
-        """The intervals that hold those of all segments of a leg, (L, n, 2)."""
+        """Compute the intervals that hold those of all segments of a leg.
+
+        Parameters
+        ----------
+        intervals : Array, shape (n_segments, n, 2)
+
+        Returns
+        -------
+        Array, shape (L, n, 2)
+        """
         low = self._each(lambda part: intervals[part, :, 0].min(axis=0), intervals.shape[1:2])
         high = self._each(lambda part: intervals[part, :, 1].max(axis=0), intervals.shape[1:2])
         return np.stack([low, high], axis=-1)
 
     def least(self, demands: Demands) -> Array:
-        """Time that is asked for at least, (L,), with waits at waypoints that are not kept."""
+        """Compute the time that is asked for at least, with waits at waypoints that are not kept.
+
+        Parameters
+        ----------
+        demands : Demands
+
+        Returns
+        -------
+        Array, shape (L,) [s]
+        """
 
         def least(part: slice) -> Array:
             inside = demands.waits[part.start + 1 : part.stop]
@@ -70,7 +95,17 @@ class LegLimits:
         return self._each(least, ())
 
     def most(self, demands: Demands) -> Array:
-        """Time that is asked for at most, (L,); infinite where there is a wait in between."""
+        """Compute the time that is asked for at most.
+
+        Parameters
+        ----------
+        demands : Demands
+
+        Returns
+        -------
+        Array, shape (L,) [s]
+            Infinite where there is a wait in between.
+        """
 
         def most(part: slice) -> Array:
             inside = demands.waits[part.start + 1 : part.stop]

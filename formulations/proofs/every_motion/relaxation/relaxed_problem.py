@@ -222,7 +222,16 @@ class RelaxedProblem:
         return len(self.segments)
 
     def over_legs(self, values: Array) -> Array:
-        """Add values (K,) of the segments up for each leg, (L,)."""
+        """Add up values of the segments for each leg.
+
+        Parameters
+        ----------
+        values : Array, shape (K,)
+
+        Returns
+        -------
+        Array, shape (L,)
+        """
         sums = [values[i:k].sum() for i, k in self.legs[self.n_segments :].tolist()]
         return np.concatenate([values, sums]) if sums else values
 

@@ -3,7 +3,7 @@
 Variables, each of order 1: the duration T of a segment, 1 / T and T^2; velocity v and acceleration a of
 a joint at a waypoint; W = T a at both ends of a segment; where a waypoint is a zone, how far e the joint
 is from its middle, and p = e / T at the ends of both segments. At the ends of a cycle the variables are
-the same. Rows:
+the same. A leg over several segments has variables as a segment has; its T is their sum. Rows:
 
     sum of T <= H, and of those before a waypoint within its bounds                              (5)
     1 / T <= 1 / l + 1 / h - T / (l h)       secant over l <= T <= h                             (6)
@@ -12,7 +12,13 @@ the same. Rows:
     (T - t) (a - f) of one sign              T at a bound t, a at a bound f (McCormick 1976)     (9)
     |v| + (2 c W - c^2 T^2) / (2 J) <= V     tangent of |v| + a^2 / (2 J) <= V, c = a / T        (10)
     (1 / T - u) (e - f) of one sign          1 / T at a bound u, e at a bound f                  (11)
+    |a - a| <= J T                           the accelerations at both ends                      (14)
     (1), (2) and (3) of ``reach``, where d / T is (distance of the middles) / T + p - p.
+
+Where a segment may take no time, or next to none, the rows in 1 / T are posed times T. The variables
+g = T v, X = T^2 a and T^3 stand for v, W and T^2 then, T^2 for T, and e for p; T stands for 1, and 1 for
+1 / T. g and X are products (9) of T and v, and of T^2 and a; (10) is posed at an acceleration f,
+|v| + (2 f a - f^2) / (2 J) <= V.
 
 Row (8) makes the relaxation tight: together with (6) and (7) it bounds the convex hull of the curve
 (T, 1 / T, T^2) where the optimum lies; the secant of T^2 is the case t = l. In (10) the acceleration a
@@ -20,7 +26,7 @@ falls to 0 after the waypoint, or rose from 0 before it, with |j| <= J, and the 
 meanwhile. V and J are those of the segment on that side where it has the time a / J for that, else the
 greatest of all segments. Where an acceleration is free at an end of the motion, (10) is posed only where
 there is certainly that time in the motion. The least sum of T over these rows is a lower
-bound for every choice of t, c and the switches.
+bound for every choice of t, c, f and the switches.
 
 Rounding. A coefficient differs from the exact one by at most 32 roundings, none of which cancels. Each
 right hand side is raised by 64 u sum |a_i| max |x_i|, u = 2^-53, so that the rows in floats hold for

@@ -112,6 +112,7 @@ def farthest_without_jerk(
     B = A if down is None else down
     up, fall = (V - v0) / A, 1.0 - (V - v1) / B
     middle = (B + (v1 - v0)) / (A + B)
+    middle = np.where(np.isfinite(middle), middle, 0.5)
     cruises = up < fall
     up = np.where(cruises, up, middle).clip(0.0, 1.0)
     fall = np.maximum(np.where(cruises, fall, middle).clip(0.0, 1.0), up)

@@ -1,7 +1,7 @@
 """Rows that tie the variables of the relaxation to one another, with the numbers of ``rows``.
 
 Those of a duration and its powers, (6) to (8), and the products, (9) and (11), are equations that a linear
-program cannot hold; the rows bound their convex hulls. (10) and (12) say what the jerk limit leaves of the
+program cannot hold; the rows bound their convex hulls. (10) and (14) say what the jerk limit leaves of the
 acceleration at a waypoint.
 """
 
@@ -30,7 +30,7 @@ _FIRST = 1e-12  # of the typical duration: (7) is posed no earlier
 
 
 class Ties(Columns):
-    """Rows (5) to (12) in the boxes of one relaxed problem."""
+    """Rows (5) to (11) and (14) in the boxes of one relaxed problem."""
 
     def fixed(self) -> Rows:
         """Rows (5) and (6); the bounds of the sums before waypoints come last."""

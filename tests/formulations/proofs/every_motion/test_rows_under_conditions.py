@@ -3,6 +3,8 @@
 from __future__ import annotations
 
 import math
+from dataclasses import replace
+from typing import Any
 
 import numpy as np
 import pytest
@@ -15,7 +17,8 @@ from formulations.problem.demands import Demands
 from formulations.proofs.every_motion.closed_forms import bound_at_top_speed
 from formulations.proofs.every_motion.relaxation.boxes import Boxes
 from formulations.proofs.every_motion.relaxation.columns import Columns
-from formulations.proofs.every_motion.relaxation.cuts import PEAKS, Kind
+from formulations.proofs.every_motion.relaxation.cuts import PEAKS, Cuts, Kind
+from formulations.proofs.every_motion.relaxation.inequalities import Terms
 from formulations.proofs.every_motion.relaxation.propagation import propagate
 from formulations.proofs.every_motion.relaxation.relaxed_problem import RelaxedProblem
 from formulations.proofs.every_motion.relaxation.rows import Frame
@@ -81,7 +84,7 @@ def framed(made: Scenario, stretch: float) -> Frame | None:
     most = np.minimum(relaxed.most[: relaxed.n_segments], relaxed.horizon - (least.sum() - least))
     boxes = propagate(relaxed, Boxes.around(relaxed, least * (1 - 1e-12), most * (1 + 1e-12)))
     assert not boxes.empty
-    return Frame(relaxed, boxes, 1.7 * least + 1e-3)
+    return Frame(relaxed, boxes, 1.7 * least + 0.3)
 
 
 def with_speed_alone(made: Scenario) -> None:
@@ -143,3 +146,45 @@ def test_peaks_beside_free_ends_would_cut_motions_off(monkeypatch: pytest.Monkey
         rows = frame.of(cuts)
         worst = max(worst, float((rows.matrix @ x - rows.upper).max(initial=0.0)))
     assert worst > 1e-3
+
+
+def _weaker(terms: Terms, column: int) -> Terms:
+    """The same rows, with a hundredth less room through the term in one column."""
+    coefficients = terms.coefficients.copy()
+    coefficients[:, column] *= 0.99
+    return replace(terms, coefficients=coefficients)
+
+
+@pytest.mark.parametrize(
+    ("method", "kind", "column"),
+    [
+        ("_of_duration", Kind.HULL_TIMES_T, 1),  # (h + 2 t) T^2
+        ("_distance", Kind.DISTANCE_TIMES_T, 6),  # J T^3
+        ("_change", Kind.CHANGE, 2),  # J T
+    ],
+)
+def test_a_wrong_row_of_a_short_segment_would_be_noticed(
+    method: str, kind: Kind, column: int, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    """The faults that the first test must notice: rows times T with a little less room."""
+    true = getattr(Frame, method)
+
+    def wrong(frame: Frame, *posed: Any) -> Terms:
+        found: Terms = true(frame, *posed)
+        named = posed[0] if len(posed) > 1 else kind
+        return _weaker(found, column) if named == kind else found
+
+    monkeypatch.setattr(Frame, method, wrong)
+    worst = 0.0
+    for seed in range(30):
+        rng = np.random.default_rng(seed)
+        frame = framed(made := scenario(rng, "rest"), 1.5)
+        if frame is None:
+            continue
+        x, cuts = point_of(frame, made), random_cuts(frame, rng)
+        with np.errstate(all="ignore"):
+            cuts = Cuts.joined([cuts, separate(frame, x, -math.inf)])
+        rows = frame.of(cuts[cuts.kind == kind])
+        rows = rows[np.flatnonzero(rows.finite)]
+        worst = max(worst, float((rows.matrix @ x - rows.upper).max(initial=0.0)))
+    assert worst > 1e-5
