@@ -101,6 +101,8 @@ def bound_with_events(
     record = _Events()
     record.renewed()
     narrowing = record.events
+    if boxes.empty:
+        return horizon, [*narrowing, *_without_time(relaxed, boxes)]
     best: tuple[float, list[Event]] = (0.0, [])
     before, rounds = 0.0, FEW
     for _ in range(_STEPS):
@@ -118,8 +120,15 @@ def bound_with_events(
         before, rounds = bound, MANY if slow else rounds
         boxes, cuts = tighten(program, solution, deadline, record, rounds)
         if boxes.empty:
-            return horizon, narrowing  # ends with "E", or with the "P" that leaves a box empty
+            # ends with "E", or with the "P" that leaves a box empty
+            return horizon, [*narrowing, *_without_time(relaxed, boxes)]
     return best
+
+
+def _without_time(relaxed: RelaxedProblem, boxes: Boxes) -> list[Event]:
+    """Events that name the legs over several segments whose box is empty: a checker knows those named."""
+    empty = np.flatnonzero(boxes.durations[:, 0] > boxes.durations[:, 1]).tolist()
+    return [["N", "T", _leg(relaxed, k), 0, []] for k in empty if k >= relaxed.n_segments]
 
 
 class _Events:

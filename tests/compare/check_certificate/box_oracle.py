@@ -105,6 +105,9 @@ class BoxOracle:
                 if fixed_a[:, j].all() or self.cyclic:
                     self.steep[j] = min(self.steep[j], np.sqrt(2.0 * J[j] * V[j]))
                 self.steep[j] = min(self.steep[j], 4.0 * V[j] / least[j] + J[j] * least[j] / 4.0)
+        unbounded = ~np.isfinite(self.steep) | ((L == 0.0) & ~np.isfinite(A) & ~self.fades.all(axis=0))
+        self.jerky &= ~unbounded
+        self.moves &= ~unbounded
         self.largest = np.minimum(np.abs(d["velocity"] * [-1.0, 1.0]).max(axis=0), self.top[:, None])
         for p in self.after:
             self.V[p] = np.clip(self.V[p], -self.top[:, None], self.top[:, None])

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Callable
+from typing import Any
 
 import numpy as np
 import pytest
@@ -155,3 +156,31 @@ def test_narrower_accelerations_hold_every_motion(ends: str) -> None:
             assert float(lo) - room <= values[key] <= float(hi) + room, (seed, key)
             narrowed += float(hi - lo) < 0.9 * float(first[key][1] - first[key][0])
     assert narrowed > 5
+
+
+class Forgetful(dict[int, Any]):
+    """Remembers nothing."""
+
+    def get(self, key: int, default: Any = None) -> Any:
+        return default
+
+
+@pytest.mark.parametrize("ends", ["rest", "cyclic"])
+def test_accelerations_are_narrowed_again_only_where_that_narrows_more(ends: str) -> None:
+    for seed in range(6):
+        rng = np.random.default_rng(300 + seed)
+        made = drawn(rng, ends, n=5, times="none")
+        made.demands["passages"][1:] = made.arrivals[1:, None] * [1.0 - 1e-9, 1.0 + 1e-9]
+        events: list[Any] = [["P"]]
+        for k in rng.permutation(5).tolist():
+            for side, kinds in enumerate(("bl", "lb")):  # arrivals at both ends of a segment
+                rows = [[kinds[0], k + 1, (1.0).hex()], [kinds[1], k, (1.0).hex()]]
+                events.append(["N", "T", k, side, rows if k else rows[:1]])
+            events.append(["P"])
+        data = certificate(made.demands, 1e-9, made.arrivals[-1] * 1.01, [*events, ["F", []]])
+        checker, again = Relaxation(Claim(data)), Relaxation(Claim(data))
+        again._seen = Forgetful()
+        checker.replay()
+        again.replay()
+        for key, box in again.boxes.items():
+            assert all(x == y for x, y in zip(checker.boxes[key], box, strict=True)), key

@@ -30,6 +30,9 @@ class Relaxation(Inequalities):
         need(H >= claim.L, "the horizon is below the bound")
         super().__init__(claim, H)
         self.sum: list[Any] = []
+        self._seen: dict[
+            int, list[Any]
+        ] = {}  # the intervals from which accelerations were narrowed last
 
     def replay(self) -> int:
         """Verify every event; returns the number of rows with multipliers."""
@@ -81,6 +84,12 @@ class Relaxation(Inequalities):
         for before, after in pairwise(self.ks):
             if not (boxes["T", before][0] > 0 and boxes["T", after][0] > 0):
                 continue
+            places = [(before, 0), (before, 1), (after, 1)]
+            used: list[Any] = [boxes["T", before], boxes["T", after]]
+            used += [boxes.get(self.at_end("e", k, j, end)) for k, end in places for j in limited]
+            if all(x is y for x, y in zip(used, self._seen.get(after, [None]), strict=False)):
+                continue  # nothing to narrow that was not narrowed
+            self._seen[after] = used
             of_both = weights(boxes["T", before], boxes["T", after])
             for j in limited:
                 d, e = self._way(boxes, before, j), self._way(boxes, after, j)

@@ -195,7 +195,7 @@ def _forms(relaxed: RelaxedProblem, durations: Array) -> tuple[Truths, Truths]:
     # where both states are given, times T nothing is lost, wherever the joint is in a zone
     still = (relaxed.v_boxes[..., 0] == relaxed.v_boxes[..., 1]).all(axis=1)
     still &= (relaxed.a_boxes[..., 0] == relaxed.a_boxes[..., 1]).all(axis=1)
-    zone = (relaxed.zones > 0.0).any(axis=1)
+    zone = np.asarray((relaxed.zones > 0.0).any(axis=1))
     given = still[relaxed.legs].all(axis=1) & zone[relaxed.legs].any(axis=1)
     return (low <= _SHORT * high) | given, (low > _NONE * high) & ~given
 

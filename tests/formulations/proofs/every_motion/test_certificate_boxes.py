@@ -16,9 +16,13 @@ from test_conditioned_certificates import KINDS, asked
 
 from compare.check_certificate.claim import Claim
 from compare.check_certificate.families.every_motion.relaxation import Relaxation
+from compare.check_certificate.verify import verify
+from compare.studies.conditioned_problems import drawn_problem
+from formulations.deadlines import Deadline
 from formulations.problem.demands import Demands
 from formulations.proofs.certificate import certificate_of
 from formulations.proofs.every_motion import events
+from formulations.proofs.every_motion.relaxation.cuts import Cuts
 from formulations.proofs.every_motion.relaxation.propagation import propagate
 from formulations.proofs.every_motion.relaxation.relaxed_problem import RelaxedProblem
 from formulations.proofs.every_motion.relaxation.rows import Frame
@@ -73,3 +77,18 @@ def named(frame: Frame, checker: Relaxation) -> Any:
                     positive = bool(checker.boxes["T", leg][0] > 0)
                     if column >= 0 and np.ptp(frame.box[column]) > 0.0 and (letter != "p" or positive):
                         yield (letter, leg, joint, side), column, unit
+
+
+def test_a_leg_over_several_segments_that_has_no_time_is_named() -> None:
+    """Only its box is empty, and no row says so."""
+    demands = Demands.of(drawn_problem("zones", 24))
+    horizon = 0.4295473313667282
+    relaxed = RelaxedProblem.under(demands, horizon)
+    typical = np.full(len(demands.durations), 0.2)
+    with np.errstate(divide="ignore", invalid="ignore"):
+        bound, found = events.bound_with_events(
+            relaxed, horizon, horizon, Cuts.none(), typical, Deadline(5.0)
+        )
+    assert bound == horizon
+    data = certificate_of(demands.problem, bound, found, horizon=horizon, demands=demands)
+    verify(json.loads(json.dumps(data)))
