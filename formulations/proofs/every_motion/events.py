@@ -97,7 +97,7 @@ def bound_with_events(
     events : list
     """
     boxes = propagate(relaxed, _first_boxes(relaxed))
-    units = typical[relaxed.segments]
+    units = relaxed.units(typical)
     record = _Events()
     record.renewed()
     narrowing = record.events

@@ -206,7 +206,7 @@ class HorizonSearch:
         """Bound all motions of at most ``horizon`` seconds, in narrower and narrower boxes."""
         relaxed = self.relaxed(horizon)
         boxes = first_boxes(self.demands, relaxed, boxes)
-        typical = self.typical[relaxed.segments]
+        typical = relaxed.units(self.typical)
         tolerance = min(max(1e-3 * gap, 1e-9), 1e-7)
         stalled, rounds = False, FEW
         while not boxes.empty:

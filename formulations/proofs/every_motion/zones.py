@@ -78,7 +78,7 @@ class ZoneSearch(HorizonSearch):
         boxes = first_boxes(self.demands, relaxed, None)
         if boxes.empty:
             return self.known
-        frame = Frame(relaxed, boxes, self.typical[relaxed.segments])
+        frame = Frame(relaxed, boxes, relaxed.units(self.typical))
         program = LinearProgram(frame, tangents(boxes.durations))
         found = program.solve(frame.cost, rounds=ROUNDS, tolerance=_COARSE, deadline=deadline)
         return min(found.bound, relaxed.horizon) + relaxed.waits

@@ -13,11 +13,11 @@ import numpy as np
 from formulations.problem.arrays import Array, Indices
 from formulations.problem.demands import Demands
 
-_OVER = 4  # segments at most in a leg
+_OVER, _MOST = 4, 100  # segments in a leg, and legs over several, at most
 
 
 def legs_between(demands: Demands, kept: Indices) -> Indices:
-    """List the legs: all segments, and legs over zones without a wait.
+    """List the legs: all segments, and legs over zones without a wait, short ones first.
 
     Parameters
     ----------
@@ -37,12 +37,12 @@ def legs_between(demands: Demands, kept: Indices) -> Indices:
     box = demands.waypoints[kept]
     zone = (box[..., 0] < box[..., 1]).any(axis=1) & (demands.waits[kept] == 0.0)
     over = [
-        (i, k)
-        for i in first.tolist()
-        for k in range(i + 2, min(len(kept), i + _OVER + 1))
-        if zone[i + 1 : k].all()
+        (i, i + many)
+        for many in range(2, _OVER + 1)
+        for i in range(len(kept) - many)
+        if zone[i + 1 : i + many].all()
     ]
-    return np.concatenate([legs, np.array(over, dtype=np.intp).reshape(-1, 2)])
+    return np.concatenate([legs, np.array(over[:_MOST], dtype=np.intp).reshape(-1, 2)])
 
 
 class LegLimits:

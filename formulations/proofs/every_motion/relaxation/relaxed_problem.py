@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
+from itertools import pairwise
 
 import numpy as np
 
@@ -220,6 +221,20 @@ class RelaxedProblem:
     def n_segments(self) -> int:
         """Number of segments between waypoints that are kept."""
         return len(self.segments)
+
+    def units(self, typical: Array) -> Array:
+        """Choose a unit for the duration of each segment: the longest of the problem's segments on it.
+
+        Parameters
+        ----------
+        typical : Array, shape (n_segments,) [s]
+            Of the problem's segments, about.
+
+        Returns
+        -------
+        Array, shape (K,) [s]
+        """
+        return np.array([typical[i:k].max() for i, k in pairwise(self.waypoints.tolist())])
 
     def over_legs(self, values: Array) -> Array:
         """Add up values of the segments for each leg.

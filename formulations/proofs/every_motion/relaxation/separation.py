@@ -96,14 +96,13 @@ def _zones(frame: Frame) -> Iterator[Proposal]:
 
 def _short_products(frame: Frame) -> Iterator[Proposal]:
     """Rows (9) of T v and T^2 a in short segments, in all four corners."""
-    with_states = frame.short[:, None] & ~frame.relaxed.by_speed_alone
-    for kinds, low, high in (
-        (SPEED_PRODUCTS, frame.v_low, frame.v_high),
-        (SQUARE_PRODUCTS, frame.a_low, frame.a_high),
+    for kinds, low, high, joints in (
+        (SPEED_PRODUCTS, frame.v_low, frame.v_high, ~frame.relaxed.by_speed_alone),
+        (SQUARE_PRODUCTS, frame.a_low, frame.a_high, frame.relaxed.has_jerk),
     ):
-        moves = (low != 0.0) | (high != 0.0)
+        moves = ((low != 0.0) | (high != 0.0)) & joints
         for kind in kinds:
-            k, j = np.nonzero(with_states & moves[frame.relaxed.legs[:, kind.end]])
+            k, j = np.nonzero(frame.short[:, None] & moves[frame.relaxed.legs[:, kind.end]])
             yield kind, _corners(kind, k, j)
 
 
