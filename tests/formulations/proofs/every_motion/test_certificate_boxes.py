@@ -26,6 +26,7 @@ from formulations.proofs.every_motion.relaxation.cuts import Cuts
 from formulations.proofs.every_motion.relaxation.propagation import propagate
 from formulations.proofs.every_motion.relaxation.relaxed_problem import RelaxedProblem
 from formulations.proofs.every_motion.relaxation.rows import Frame
+from formulations.proofs.tool.least_times import with_tool_times
 
 HORIZON = 20.0
 
@@ -35,7 +36,7 @@ HORIZON = 20.0
 def test_all_boxes_are_those_of_the_checker(kind: str, seed: int) -> None:
     problem, conditions = asked(kind, np.random.default_rng(seed))
     demands = Demands.of(problem, conditions)
-    relaxed = RelaxedProblem.under(demands, HORIZON)
+    relaxed = RelaxedProblem.under(with_tool_times(demands), HORIZON)
     with np.errstate(divide="ignore", invalid="ignore"):
         boxes = propagate(relaxed, events._first_boxes(relaxed))
         frame = Frame(relaxed, boxes, np.full(relaxed.n_segments, 0.7))
