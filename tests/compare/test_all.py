@@ -90,6 +90,7 @@ def test_every_run_is_a_row_with_versions_seed_budget_and_machine(report: Path) 
         assert row["seed"] in "01"
 
 
+@pytest.mark.long
 def test_the_report_can_be_drawn_again_from_its_rows(report: Path) -> None:
     before = (report / "index.html").read_text()
     done = command("report", str(report))
@@ -97,7 +98,7 @@ def test_the_report_can_be_drawn_again_from_its_rows(report: Path) -> None:
     assert (report / "index.html").read_text() == before
 
 
-@pytest.mark.slow
+@pytest.mark.long
 def test_a_planted_line_is_a_fault_in_the_report_and_none_of_its_numbers_is_shown(
     report: Path, tmp_path: Path
 ) -> None:

@@ -46,6 +46,7 @@ DOORS = {
     "compare/citations/bibliography.py": "shipped files only",
     "compare/grading/names.py": "the source of a swarm, which runs afterwards",
     "compare/sources.py": "the source",
+    "compare/studies/scale.py": "what the system says of this process",
     "compare/benchmark/records/proof_cache.py": "the source",
     "compare/benchmark/records/provenance.py": "the source",
     "metaheuristics/driver/channel.py": "messages of a process of its own",

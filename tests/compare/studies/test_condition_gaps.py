@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from dataclasses import replace
+
 import pytest
 
 from compare.studies.condition_gaps import KINDS, answered, calls, drawn_problem, summarise
@@ -33,8 +35,10 @@ def test_a_motion_below_its_bound_would_be_counted() -> None:
 
 
 def test_a_bound_of_nothing_leaves_an_infinite_gap() -> None:
-    """Zones that all meet: nothing forces the motion to take time."""
+    """Zones that all meet, so that nothing forces time between them, are proved all the same."""
     (row,) = answered("zones", 88)
-    assert row.bound == 0.0
-    assert row.gap == float("inf")
-    assert summarise([row])[0]["near"] == 0
+    assert 0.0 <= row.gap <= 1e-4
+    assert summarise([row])[0]["near"] == 1
+    nothing = replace(row, bound=0.0)
+    assert nothing.gap == float("inf")
+    assert summarise([nothing])[0]["near"] == 0

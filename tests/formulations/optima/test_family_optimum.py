@@ -170,6 +170,7 @@ def test_a_start_that_is_called_ok_ends_where_no_neighbour_is_faster() -> None:
             assert start.seconds <= near * (1.0 + 1e-7), start
 
 
+@pytest.mark.long
 @given(problem=problems(reach=(-3.0, 1.0), position=True), seed=st.integers(0, 2**32 - 1))
 @settings(max_examples=8, phases=NO_SHRINKING)
 def test_no_random_candidate_is_faster_than_the_optimum(problem: Problem, seed: int) -> None:

@@ -103,7 +103,9 @@ LIMITS = Limits.of(velocity=2.0, acceleration=5.0, jerk=50.0, dof=3)
 LINE = np.array([1.0, 0.5, -0.8])
 
 
-@pytest.mark.parametrize(("count", "step"), [(80, 1e-3), (200, 1e-4)])
+@pytest.mark.parametrize(
+    ("count", "step"), [(80, 1e-3), pytest.param(200, 1e-4, marks=pytest.mark.long)]
+)
 def test_a_dense_line_takes_the_time_between_its_ends(count, step):
     """Without a corner the points between the ends cost nothing: 4 cbrt(d / 2 J) of the longest joint."""
     problem = Problem(np.outer(np.arange(count) * step, LINE), LIMITS)
