@@ -58,8 +58,6 @@ def retime(
         for derivative, given in enumerate((task.ends[:, j], task.end_accelerations[:, j])):
             own[[0, -1], derivative] = np.where(np.isnan(given), own[[0, -1], derivative], given)
     least = np.maximum(least_times(task, motion.places), motion.times if task.paced else 0.0)
-    if not joints:
-        return ArcMotion(least, {}, motion.places)
     if not joints:  # velocity limits only: the places say how long each segment takes
         return ArcMotion(least, {}, motion.places)
     times = np.zeros(task.n_segments)
