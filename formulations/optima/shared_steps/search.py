@@ -147,9 +147,9 @@ class StepSearch:
             still = float(self.demands.waits.sum())
             factor = (self.best[1].seconds - still) / (start.seconds - still)
         steps = steps.stretched(factor)
-        for mesh in meshes:
-            if self.deadline.over:
-                return
+        for mesh in (*meshes, 2 * meshes[-1]):
+            if self.deadline.over or (mesh > meshes[-1] and self.best is not None):
+                return  # still finer steps are for problems without a motion so far
             if steps.durations.shape[1] != mesh:
                 steps = sampled(steps.assembled(self.demands), self.demands, mesh)
             steps = self._round(steps, mesh)
