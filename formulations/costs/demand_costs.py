@@ -247,7 +247,7 @@ def solved(
 
 def _fastest(problem: Problem, deadline: Deadline) -> FreeForm:
     asked = problem.conditions
-    tolerance = _LOCAL if asked.on_tool or asked.torque is not None else _GAP
+    tolerance = _LOCAL if asked.ties_joints else _GAP
     return free_form(problem, tolerance=tolerance, time_limit=deadline.left, stop=deadline.stop)
 
 

@@ -120,6 +120,11 @@ class Conditions:
         """Whether the tool point is limited in speed or place."""
         return self.tool_speed is not None or bool(self.segment_tool_speed or self.tool_zones)
 
+    @property
+    def ties_joints(self) -> bool:
+        """Whether limits tie the joints together at each time: those on the tool, and torque limits."""
+        return self.on_tool or self.torque is not None
+
     def boxes(self, dof: int) -> dict[int, Array]:
         """How far each joint may pass a waypoint, those with a zone of the tool included.
 
@@ -149,11 +154,7 @@ class Conditions:
         Conditions
         """
         return replace(
-            self,
-            tolerance=self.boxes(dof),
-            tool_speed=None,
-            segment_tool_speed={},
-            tool_zones={},
+            self, tolerance=self.boxes(dof), tool_speed=None, segment_tool_speed={}, tool_zones={}
         )
 
     def tool_speeds(self, n_segments: int) -> Array:

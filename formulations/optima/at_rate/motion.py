@@ -93,7 +93,7 @@ def at_rate(
     asked = problem.conditions if conditions is None else conditions
     require_kept(asked)
     require_exportable(problem, trajectory.seconds, rate)
-    if asked.on_tool or asked.torque is not None:
+    if asked.ties_joints:
         return _under_tied_limits(problem, trajectory, rate, asked)
     verdict = None
     for patience in _EXTRA if rate is not None else _STRETCHES:

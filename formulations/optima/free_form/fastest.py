@@ -165,7 +165,7 @@ def free_form(
         raise InputError(f"tolerance: {tolerance:g} is not positive")
     if solver not in ("ipopt", "highs"):
         raise InputError(f"solver: {solver!r} is not known (known: highs, ipopt)")
-    if asked.torque is not None or asked.on_tool:
+    if asked.ties_joints:
         from formulations.optima.shared_steps import fastest_within  # it starts from what is found here
 
         return fastest_within(

@@ -89,7 +89,7 @@ def tighten(
     for name, k, j in wanted:
         frame, boxes = program.frame, program.frame.boxes
         narrowed = {key: getattr(boxes, key).copy() for key in ("durations", *_AT_WAYPOINTS)}
-        interval = narrowed[name][k] if name == "durations" else narrowed[name][k, j]
+        interval = _interval(narrowed, name, k, j)
         column, unit = _column(frame, name, k, j)
         for side, sign in ((0, 1.0), (1, -1.0)):
             if deadline.over:
@@ -102,12 +102,7 @@ def tighten(
             if found.empty:
                 return Boxes(**narrowed, empty=True), program.cuts
             _narrow(interval, side, found.bound * unit)
-        empty = bool(interval[0] > interval[1])
-        for key in _AT_WAYPOINTS:
-            narrowed[key] = joined_ends(frame.relaxed, narrowed[key])
-        boxes = propagate(frame.relaxed, Boxes(**narrowed, empty=empty))
-        if record is not None:
-            record.renewed()
+        boxes = _with_what_follows(frame, narrowed, record)
         if boxes.empty:
             return boxes, program.cuts
         program = program.renewed(boxes)
@@ -147,18 +142,31 @@ def _tighten_in_windows(
                         continue
                     if record is not None:
                         record.narrowed(program, column, side, found)
-                    interval = narrowed[name][k] if name == "durations" else narrowed[name][k, j]
-                    _narrow(interval, side, found.bound * unit)
-        empty = bool((narrowed["durations"][:, 0] > narrowed["durations"][:, 1]).any())
-        empty |= bool((narrowed["accelerations"][..., 0] > narrowed["accelerations"][..., 1]).any())
-        boxes = propagate(frame.relaxed, Boxes(**narrowed, empty=empty))
-        if record is not None:
-            record.renewed()
+                    _narrow(_interval(narrowed, name, k, j), side, found.bound * unit)
+        boxes = _with_what_follows(frame, narrowed, record)
+        if boxes.empty:
+            return boxes, program.cuts
         program = program.renewed(boxes)
-        if boxes.empty or deadline.over:
+        if deadline.over:
             break
         solution = program.solve(frame.cost, rounds=rounds, tolerance=_TOLERANCE, deadline=deadline)
     return program.frame.boxes, program.cuts
+
+
+def _interval(arrays: dict[str, Array], name: str, k: int, j: int) -> Array:
+    """The interval of a duration, or of joint j at waypoint k."""
+    return np.asarray(arrays[name][k] if name == "durations" else arrays[name][k, j])
+
+
+def _with_what_follows(frame: Frame, narrowed: dict[str, Array], record: Record | None) -> Boxes:
+    """Boxes of narrowed intervals, and what else they narrow; the rows are those of these from now on."""
+    for key in _AT_WAYPOINTS:
+        narrowed[key] = joined_ends(frame.relaxed, narrowed[key])
+    empty = any(bool((each[..., 0] > each[..., 1]).any()) for each in narrowed.values())
+    boxes = propagate(frame.relaxed, Boxes(**narrowed, empty=empty))
+    if record is not None:
+        record.renewed()
+    return boxes
 
 
 def _narrow(interval: Array, side: int, bound: float) -> None:
