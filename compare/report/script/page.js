@@ -165,6 +165,11 @@ for (const button of document.querySelectorAll("button[data-all]")) {
 }
 addEventListener("hashchange", openTarget);
 
+// a page that is loaded again goes to the address's target: the place where the browser left it moves
+// when charts are drawn
+if (location.hash) history.scrollRestoration = "manual";
+addEventListener("load", openTarget);
+
 addEventListener("DOMContentLoaded", () => {
   setTheme(dark.matches ? "dark" : "light");
   if (matchMedia("(max-width: 60rem)").matches) document.querySelector("details.chapters").open = false;
