@@ -221,8 +221,7 @@ class HorizonSearch:
             before = self.seconds
             if solution.empty:
                 break
-            bound = min(solution.bound, relaxed.horizon)
-            self._keep(program, solution, (bound + relaxed.waits) * _BELOW if relaxed.waits else bound)
+            self._keep(program, solution)
             if solution.status == LPStatus.TIME_LIMIT:
                 return _out_of_time(deadline), boxes
             if solution.status != LPStatus.OPTIMAL:
@@ -262,10 +261,12 @@ class HorizonSearch:
         target = self.upper / (1.0 + gap)
         proof = PartedProof(relaxed, horizon, target, self.typical, deadline, for_checker=False)
         proof.prove(boxes, self.cuts, stuck_at=self.seconds)
-        if proof.least.program is not None and proof.least.solution is not None:
-            self._keep(proof.least.program, proof.least.solution, proof.bound)
-        else:
-            self._improve(proof.bound)
+        if proof.bound > self.seconds and not proof.least.empty:
+            program = LinearProgram(proof.frame(proof.least.boxes), proof.least.cuts)
+            solution = program.solve(program.frame.cost, rounds=FEW, tolerance=1e-7, deadline=deadline)
+            if solution.status == LPStatus.OPTIMAL:
+                self._describe(program, solution)
+        self._improve(proof.bound)
         if self.met(gap):
             return Ending(BoundStatus.PROVED)
         return _out_of_time(deadline) if deadline.over else None
@@ -329,19 +330,27 @@ class HorizonSearch:
         if self.progress is not None:
             self.progress(self.seconds, self.upper)
 
-    def _keep(self, program: LinearProgram, solution: LPSolution, bound: float) -> None:
+    def _keep(self, program: LinearProgram, solution: LPSolution) -> None:
         """Keep the bound of a solve and, if it is the best one, its durations and savings."""
-        relaxed, problem = program.frame.relaxed, self.problem
+        relaxed = program.frame.relaxed
         self.rows = len(program.rows)
+        bound = min(solution.bound, relaxed.horizon)
+        if relaxed.waits:
+            bound = (bound + relaxed.waits) * _BELOW
         if bound > self.bounds.get("relaxation", 0.0):
-            self.durations = np.zeros(problem.n_segments)
-            found = solution.x[program.frame.T] * program.frame.typical
-            self.durations[relaxed.segments] = found[: relaxed.n_segments]
-            self.savings = np.zeros((3, problem.n_segments, problem.dof))
-            self.savings[:, relaxed.segments[:, None], relaxed.joints] = price_limits(
-                self.demands, program, solution
-            )
+            self._describe(program, solution)
         self._improve(bound)
+
+    def _describe(self, program: LinearProgram, solution: LPSolution) -> None:
+        """Keep the durations and the savings of a solve."""
+        relaxed, problem = program.frame.relaxed, self.problem
+        self.durations = np.zeros(problem.n_segments)
+        found = solution.x[program.frame.T] * program.frame.typical
+        self.durations[relaxed.segments] = found[: relaxed.n_segments]
+        self.savings = np.zeros((3, problem.n_segments, problem.dof))
+        self.savings[:, relaxed.segments[:, None], relaxed.joints] = price_limits(
+            self.demands, program, solution
+        )
 
 
 def _why(solution: LPSolution) -> str:

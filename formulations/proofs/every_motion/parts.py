@@ -48,8 +48,8 @@ class Part:
         How many splits it is away from the whole.
     bound : float [s]
         The best one so far, with all waits.
-    program, solution
-        Of the last linear program; None where no motion is left.
+    empty : bool
+        Whether no motion is left in the boxes.
     log : EventLog
     end : tuple
         How many events the best bound needs, and the event that ends its proof.
@@ -59,8 +59,7 @@ class Part:
     cuts: Cuts
     depth: int = 0
     bound: float = 0.0
-    program: LinearProgram | None = None
-    solution: LPSolution | None = None
+    empty: bool = False
     log: EventLog = field(default_factory=EventLog)
     end: tuple[int, list[Event]] = (0, [])
 
@@ -131,7 +130,7 @@ class PartedProof:
         open_parts, in_vain = [root], 0
         while in_vain < _IN_VAIN and not self.deadline.over:
             least = min(open_parts, key=lambda part: part.bound)
-            if least.bound >= self.target or least.depth == _DEEPEST or least.program is None:
+            if least.bound >= self.target or least.depth == _DEEPEST or least.empty:
                 break
             halves = self._split(least)
             if halves is None:
@@ -147,6 +146,19 @@ class PartedProof:
         self.least = min(open_parts, key=lambda part: part.bound)
         self.bound = self.least.bound
         return root.log.events
+
+    def frame(self, boxes: Boxes) -> Frame:
+        """Pose the rows in the boxes of a part.
+
+        Parameters
+        ----------
+        boxes : Boxes
+
+        Returns
+        -------
+        Frame
+        """
+        return Frame(self.relaxed, boxes, self.units)
 
     def _split(self, part: Part) -> list[Part] | None:
         """Split the widest duration; None where that proves less, as at the end of the time."""
@@ -166,7 +178,6 @@ class PartedProof:
         if min(half.bound for half in halves) < part.bound:
             return None
         part.log.split(self.relaxed, k, at, [half.log.events for half in halves])
-        part.program = part.solution = None
         return halves
 
     def _narrowed(self, part: Part, before: float = 0.0, rounds: int = FEW) -> Part:
@@ -178,9 +189,7 @@ class PartedProof:
             if boxes.empty:  # the events end with "E", or with the "P" that leaves a box empty
                 part.log.without_time(self.relaxed, boxes)
                 return self._nothing_left(part, [])
-            program = LinearProgram(
-                Frame(self.relaxed, boxes, self.units), cuts, for_checker=self.for_checker
-            )
+            program = LinearProgram(self.frame(boxes), cuts, for_checker=self.for_checker)
             solution = program.solve(
                 program.frame.cost, rounds=_ROUNDS, tolerance=_TOLERANCE, deadline=self.deadline
             )
@@ -189,7 +198,7 @@ class PartedProof:
             bound = min((solution.bound + self.relaxed.waits) * DOWN, self.horizon)
             bound *= 1.0 - _MARGIN if self.for_checker else 1.0
             if bound > part.bound:
-                part.bound, part.program, part.solution = bound, program, solution
+                part.bound = bound
                 part.end = len(part.log.events), self._last("F", program, solution)
             slow = bound - before < _SLOW * (self.target - before)
             stuck = slow and rounds == MANY
@@ -204,6 +213,6 @@ class PartedProof:
         return [[letter, rows_of(program, solution.multipliers)]] if self.for_checker else []
 
     def _nothing_left(self, part: Part, last: list[Event]) -> Part:
-        part.bound, part.program, part.solution = self.horizon, None, None
+        part.bound, part.empty = self.horizon, True
         part.end = len(part.log.events), last
         return part
