@@ -213,7 +213,7 @@ class HorizonSearch:
         boxes = first_boxes(self.demands, relaxed, boxes)
         typical = relaxed.units(self.typical)
         tolerance = min(max(1e-3 * gap, 1e-9), 1e-7)
-        stalled, rounds = False, FEW
+        rounds = FEW
         while not boxes.empty:
             frame = Frame(relaxed, boxes, typical)
             program = LinearProgram(frame, Cuts.joined([tangents(boxes.durations), self.cuts]))
@@ -243,11 +243,12 @@ class HorizonSearch:
                 break
             if horizon > self.seconds * (1.0 + _FAR):
                 return None, boxes
-            if stalled and self.seconds - before < _STALLED * (horizon - before):
+            slow = self.seconds - before < _STALLED * (horizon - before)
+            if slow and rounds == MANY:
                 return self._in_parts(relaxed, horizon, boxes, gap, deadline), boxes
             narrower, self.cuts = tighten(program, solution, deadline, rounds=rounds)
-            stuck = narrower.width > (1.0 - _STALLED) * boxes.width
-            stalled, rounds = stuck and rounds == MANY, MANY if stuck else rounds
+            if slow or narrower.width > (1.0 - _STALLED) * boxes.width:
+                rounds = MANY
             boxes = narrower
         self._improve(horizon)
         return (Ending(BoundStatus.PROVED) if self.met(gap) else None), boxes

@@ -36,7 +36,7 @@ _IN_VAIN = 4  # splits without a gain, after which there are no more
 _DEEPEST = 50  # splits inside each other
 
 
-@dataclass
+@dataclass(eq=False)
 class Part:
     """Boxes, what is proved of the motions in them, and what is written down of it.
 
