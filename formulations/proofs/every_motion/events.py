@@ -72,7 +72,17 @@ class EventLog:
         self.events: list[Event] = []
 
     def narrowed(self, program: LinearProgram, column: int, side: int, found: LPSolution) -> None:
-        """Note what narrows a box, or proves that nothing is left."""
+        """Note what narrows a box, or proves that nothing is left.
+
+        Parameters
+        ----------
+        program : LinearProgram
+        column : int
+            Of the variable.
+        side : int
+            0 from below, 1 from above.
+        found : LPSolution
+        """
         head, unit = _narrowed(program.frame, column)
         rows = rows_of(program, found.multipliers * unit)
         self.events.append(["E", rows] if found.empty else [*head, side, rows])

@@ -257,7 +257,7 @@ class HorizonSearch:
         self, relaxed: RelaxedProblem, horizon: float, boxes: Boxes, gap: float, deadline: Deadline
     ) -> Ending | None:
         """Split boxes that cannot be narrowed, where a motion says how much there is to gain."""
-        if self.upper is None:
+        if self.upper is None or not self.hunt.given:
             return None
         target = self.upper / (1.0 + gap)
         proof = PartedProof(relaxed, horizon, target, self.typical, deadline, for_checker=False)
