@@ -193,7 +193,7 @@ def free_form(
         return _nothing_moves(problem, asked, begun)
     many = None
     if has_many_waypoints(task):
-        many = found_in_linear_time(problem, tolerance, deadline, progress)
+        many = found_in_linear_time(task, tolerance, deadline, progress)
         if many is not None and is_final(many, task):
             return _of_many(problem, asked, many, begun)
 

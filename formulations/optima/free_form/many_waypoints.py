@@ -15,12 +15,12 @@ import numpy as np
 
 from formulations.deadlines import Deadline
 from formulations.motion.trajectory import Trajectory
-from formulations.motion.verdict import Verdict, check
+from formulations.motion.verdict import Verdict
+from formulations.optima.free_form.chains import ConditionedChain, PlainChain
 from formulations.optima.free_form.ending import SearchStatus
 from formulations.optima.free_form.nlp.conditioned import ConditionedProblem
 from formulations.optima.free_form.stage import Stage
-from formulations.problem.problem import Problem
-from formulations.proofs.every_motion.attaining_motion.motion import connect
+from formulations.problem.arrays import Array
 from formulations.proofs.every_motion.attaining_motion.state_descent import ChainDescent
 
 MANY = 40  # segments from which this search is the faster one, by measurement: 1 s against 6 s there
@@ -51,11 +51,23 @@ def has_many_waypoints(task: ConditionedProblem) -> bool:
     Returns
     -------
     bool
-        For plain problems only: no conditions, and no joint that has a velocity limit only.
+        Not for cycles, latest times, times of arrival, moving ends, limits that differ by direction, and
+        joints that have a velocity limit only.
     """
     S, n = task.n_segments, len(task.moving)
-    plain = task.conditions.none and task.problem.plain and not task.group(1)
-    return plain and S >= MANY and S * n >= _WIDE
+    if S < MANY or S * n < _WIDE or task.group(1):
+        return False
+    if task.conditions.none and task.problem.plain:
+        return True
+    both_ways = all(np.array_equal(-each[..., 0], each[..., 1]) for each in task.intervals)
+    others = task.demands.cyclic or task.windows or task.conditions.ties_joints
+    return both_ways and task.stretchable and not others and bool(_gaps(task).any(axis=1).all())
+
+
+def _gaps(task: ConditionedProblem) -> Array:
+    """How far the moving joints have to go at least, (S, n) [rad]."""
+    low, high = np.moveaxis(task.boxes[:, task.moving], -1, 0)
+    return np.maximum(np.maximum(low[1:] - high[:-1], low[:-1] - high[1:]), 0.0)
 
 
 def is_final(found: FoundInLinearTime, task: ConditionedProblem) -> bool:
@@ -75,7 +87,7 @@ def is_final(found: FoundInLinearTime, task: ConditionedProblem) -> bool:
 
 
 def found_in_linear_time(
-    problem: Problem,
+    task: ConditionedProblem,
     tolerance: float,
     deadline: Deadline,
     progress: Callable[[str, float], None] | None = None,
@@ -84,7 +96,7 @@ def found_in_linear_time(
 
     Parameters
     ----------
-    problem : Problem
+    task : ConditionedProblem
     tolerance : float
         Relative, of the total time; at least 1e-5.
     deadline : Deadline
@@ -99,14 +111,16 @@ def found_in_linear_time(
         None where the check refuses the motion: it may leave the position limits between waypoints.
     """
     clock = time.perf_counter()
-    descent = ChainDescent(problem, deadline)
+    plain = task.conditions.none and task.problem.plain
+    chain = PlainChain(task.problem) if plain else ConditionedChain(task)
+    descent = ChainDescent(chain.task, chain.start, chain.path, deadline)
     start = "smooth timing" if descent.dense else "stop and go"
-    stages = [Stage(start, descent.seconds, "", time.perf_counter() - clock)]
+    stages = [Stage(start, descent.seconds + chain.waits, "", time.perf_counter() - clock)]
     clock = time.perf_counter()
 
     def say(seconds: float) -> None:
         if progress is not None:
-            progress(NAME, seconds)
+            progress(NAME, seconds + chain.waits)
 
     say(descent.seconds)
     with np.errstate(all="ignore"):  # what overflows is not finite, and the check refuses it
@@ -115,11 +129,10 @@ def found_in_linear_time(
         if not descent.converged and deadline.over:
             status = SearchStatus.INTERRUPTED if deadline.interrupted else SearchStatus.TIME_LIMIT
         for share in _SLOWER:
-            point = descent.best.slower(1.0 + share)
-            motion = connect(problem, point.T, descent.states(point))
-            if motion is None:
+            found = chain.judged(descent.best.slower(1.0 + share))
+            if found is None:
                 return None
-            verdict = check(problem, motion)
+            motion, verdict = found
             if verdict.feasible:
                 stages.append(Stage(NAME, verdict.seconds, "", time.perf_counter() - clock))
                 return FoundInLinearTime(motion, verdict, status, tuple(stages))

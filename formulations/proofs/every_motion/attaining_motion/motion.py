@@ -76,6 +76,43 @@ def connect(problem: Problem, durations: Array, states: WaypointStates) -> Traje
     return Trajectory(np.concatenate(lengths), moves, np.cumsum(passages))
 
 
+def connecting_arcs(
+    durations: Array, v: Array, a: Array, displacements: Array, limits: tuple[Array, Array, Array]
+) -> tuple[Array, Array]:
+    """Connect waypoint states joint by joint.
+
+    Parameters
+    ----------
+    durations : Array, shape (K,) [s]
+    v, a : Array, shape (K + 1, n)
+        States at the waypoints [rad/s, rad/s^2].
+    displacements : Array, shape (K, n) [rad]
+    limits : tuple of Array, shape (K, n)
+        Of velocity, acceleration and jerk on each segment; jerk is 0 where unlimited.
+
+    Returns
+    -------
+    times : Array, shape (K, n, 13) [s]
+        Of the arcs of each joint.
+    tops : Array, shape (K, n, 13)
+        Their jerk, or acceleration where jerk is unlimited.
+    """
+    T = durations[:, None]
+    V, A, J = limits
+    ends = _Ends(v[:-1] * T, a[:-1] * T**2, v[1:] * T, a[1:] * T**2, V * T, A * T**2, J * T**3)
+    ways = _ways(ends, displacements)
+    inner = np.sort(np.concatenate([switches[..., 1:-1] for switches, _ in ways], axis=-1), axis=-1)
+    outer = np.zeros((*inner.shape[:-1], 1))
+    breaks = np.clip(np.concatenate([outer, inner, outer + 1.0], axis=-1), 0.0, 1.0)
+    middles = 0.5 * (breaks[..., :-1] + breaks[..., 1:])
+    tops = np.zeros(middles.shape)
+    for switches, values in ways:
+        piece = (middles[..., None] > switches[..., None, 1:-1]).sum(axis=-1)
+        tops += np.take_along_axis(values, piece, axis=-1)
+    order = np.where(J > 0.0, 3, 2)[..., None]
+    return np.diff(breaks, axis=-1) * T[..., None], tops / T[..., None] ** order
+
+
 @dataclass(frozen=True)
 class _Ends:
     """States and limits of all joints in normalised time, (n,) or (K, n); J is 0 where unlimited."""

@@ -2,9 +2,9 @@
 
 A motion with durations T, velocities v and accelerations a at the waypoints exists exactly if every joint
 gets as far as each displacement, in both directions, and gains as much speed: (1) and (2) of ``reach`` at
-their own switches, and |v| + a^2 / (2 J) <= V. With W = T a these rows are functions of T, v and a. By the
-envelope theorem their slopes are those at fixed switches. All states are in units of their limits here, and
-a change of T in units of T.
+their own switches, and |v| + a^2 / (2 J) <= V. With W = T a these rows are functions of T, v, a and the
+displacement d. By the envelope theorem their slopes are those at fixed switches. All states are in units of
+their limits here, positions and displacements in seconds at top speed, and a change of T in units of T.
 """
 
 from __future__ import annotations
@@ -14,8 +14,8 @@ from dataclasses import dataclass
 import numpy as np
 
 from formulations.problem.arrays import Array, Indices, Truths
+from formulations.proofs.every_motion.attaining_motion.chain_task import ChainTask
 from formulations.proofs.every_motion.relaxation.reach import distance_coefficients, speed_coefficients
-from formulations.proofs.every_motion.relaxation.relaxed_problem import RelaxedProblem
 from formulations.proofs.every_motion.relaxation.switches import (
     farthest,
     farthest_without_jerk,
@@ -34,11 +34,14 @@ class ChainPoint:
     T : Array, shape (K,) [s]
     v, a : Array, shape (K + 1, n)
         In units of the limits.
+    e : Array, shape (K + 1, n) [s]
+        Positions in the zones, from their middles, in seconds at top speed.
     """
 
     T: Array
     v: Array
     a: Array
+    e: Array
 
     def slower(self, factor: float) -> ChainPoint:
         """The states of the same motion with its time stretched.
@@ -51,7 +54,7 @@ class ChainPoint:
         -------
         ChainPoint
         """
-        return ChainPoint(self.T * factor, self.v / factor, self.a / factor**2)
+        return ChainPoint(self.T * factor, self.v / factor, self.a / factor**2, self.e)
 
     def towards(self, other: ChainPoint, share: float) -> ChainPoint:
         """Go a share of the way to another point.
@@ -73,11 +76,11 @@ class ChainPoint:
 
 @dataclass(frozen=True)
 class ReachRows:
-    """The rows of a relaxed problem: one for each segment, joint, direction and kind.
+    """The rows of a task: one for each segment, joint, direction and kind.
 
     Attributes
     ----------
-    relaxed : RelaxedProblem
+    task : ChainTask
     segment, joint : Indices, shape (m,)
     sign : Array, shape (m,)
         Direction, 1 or -1.
@@ -85,34 +88,34 @@ class ReachRows:
         Whether the row is about the distance (1), or the speed (2).
     """
 
-    relaxed: RelaxedProblem
+    task: ChainTask
     segment: Indices
     joint: Indices
     sign: Array
     far: Truths
 
     @staticmethod
-    def of(relaxed: RelaxedProblem) -> ReachRows:
+    def of(task: ChainTask) -> ReachRows:
         """List all rows.
 
         Parameters
         ----------
-        relaxed : RelaxedProblem
+        task : ChainTask
 
         Returns
         -------
         ReachRows
         """
-        K, n = relaxed.displacements.shape
+        K, n = task.displacements.shape
         k, j, way, kind = (index.ravel() for index in np.indices((K, n, 2, 2)))
-        return ReachRows(relaxed, k, j, 1.0 - 2.0 * way, kind == 0)
+        return ReachRows(task, k, j, 1.0 - 2.0 * way, kind == 0)
 
     def __getitem__(self, which: Indices | Truths) -> ReachRows:
         k, j = self.segment[which], self.joint[which]
-        return ReachRows(self.relaxed, k, j, self.sign[which], self.far[which])
+        return ReachRows(self.task, k, j, self.sign[which], self.far[which])
 
     def states(self, point: ChainPoint) -> tuple[Array, ...]:
-        """Duration and states at both ends of each row's segment.
+        """Duration, states at both ends and displacement of each row's segment.
 
         Parameters
         ----------
@@ -121,10 +124,12 @@ class ReachRows:
         Returns
         -------
         tuple of Array, shape (m,)
-            T, v0, a0, v1, a1.
+            T, v0, a0, v1, a1, d.
         """
-        k, j = self.segment, self.joint
-        return point.T[k], point.v[k, j], point.a[k, j], point.v[k + 1, j], point.a[k + 1, j]
+        k, j, task = self.segment, self.joint, self.task
+        d = task.displacements / task.velocity + np.diff(point.e, axis=0)
+        ends = point.v[k, j], point.a[k, j], point.v[k + 1, j], point.a[k + 1, j]
+        return point.T[k], *ends, d[k, j]
 
     def units(self, states: tuple[Array, ...]) -> Array:
         """Compute what full acceleration or full jerk gains in each row's segment.
@@ -141,16 +146,19 @@ class ReachRows:
         Array, shape (m,)
             In units of the top speed, at most 1.
         """
-        ramp, bend, _ = self._scales(states[0])
-        jerky = self.relaxed.has_jerk[self.joint]
+        _, ramp, bend, _ = self._scales(states[0])
+        jerky = self.task.has_jerk[self.joint]
         return np.minimum(np.minimum(ramp, np.where(jerky, bend, np.inf)), 1.0)
 
-    def _scales(self, T: Array) -> tuple[Array, Array, Array]:
-        """Speed gained at full acceleration and at full jerk, and mean speed wanted, over top speed."""
-        relaxed, j = self.relaxed, self.joint
-        top = relaxed.velocity[j]
-        wanted = self.far * self.sign * relaxed.displacements[self.segment, j] / (top * T)
-        return T * relaxed.acceleration[j] / top, T**2 * relaxed.jerk[j] / top, wanted
+    def _scales(self, T: Array) -> tuple[Array, Array, Array, Array]:
+        """Speed gained at the unit of acceleration, at full acceleration and at full jerk; top speed.
+
+        All in units of the joint's greatest velocity limit.
+        """
+        task, k, j = self.task, self.segment, self.joint
+        unit = task.velocity[j]
+        ramp, bend = T * task.accelerations[k, j] / unit, T**2 * task.jerks[k, j] / unit
+        return T * task.acceleration[j] / unit, ramp, bend, task.velocities[k, j] / unit
 
     def coefficients(self, states: tuple[Array, ...]) -> Array:
         """Compute the rows' coefficients at the switches that are best for these states.
@@ -158,23 +166,23 @@ class ReachRows:
         Parameters
         ----------
         states : tuple of Array, shape (m,)
-            T, v0, a0, v1, a1.
+            T, v0, a0, v1, a1, d.
 
         Returns
         -------
         Array, shape (m, 7)
             Of v0, W0, v1, W1, V, A T and J T^2, as ``distance_coefficients`` has them.
         """
-        T, v0, a0, v1, a1 = states
-        ramp, bend, _ = self._scales(T)
-        v0, v1, W0, W1 = self.sign * v0, self.sign * v1, self.sign * a0 * ramp, self.sign * a1 * ramp
+        T, v0, a0, v1, a1, _ = states
+        unit, ramp, bend, V = self._scales(T)
+        v0, v1, W0, W1 = self.sign * v0, self.sign * v1, self.sign * a0 * unit, self.sign * a1 * unit
         most = np.maximum(ramp, np.maximum(np.abs(W0), np.abs(W1)))
         found = np.empty((len(T), 7))
-        jerky = self.relaxed.has_jerk[self.joint]
+        jerky = self.task.has_jerk[self.joint]
         for limited in (True, False):
             row = np.flatnonzero(self.far & (jerky == limited))
             if len(row):
-                top = np.ones(len(row))
+                top = V[row]
                 if limited:
                     six, cruises = farthest(
                         v0[row], W0[row], v1[row], W1[row], top, most[row], bend[row]
@@ -204,20 +212,22 @@ class ReachRows:
 
         Returns
         -------
-        slopes : Array, shape (m, 5)
-            Change of what is missing with T, v0, a0, v1, a1.
+        slopes : Array, shape (m, 6)
+            Change of what is missing with T, v0, a0, v1, a1, d.
         slack : Array, shape (m,)
             Negative where the row is violated.
         """
-        T, v0, a0, v1, a1 = states
-        ramp, bend, wanted = self._scales(T)
+        T, v0, a0, v1, a1, d = states
+        unit, ramp, bend, V = self._scales(T)
         sign = self.sign
-        pull = sign * ramp * (c[:, 1] * a0 + c[:, 3] * a1)
+        towards = self.far * sign / T
+        wanted = towards * d
+        pull = sign * unit * (c[:, 1] * a0 + c[:, 3] * a1)
         slack = sign * (c[:, 0] * v0 + c[:, 2] * v1) + pull
-        slack += c[:, 4] + c[:, 5] * ramp + c[:, 6] * bend - wanted
+        slack += c[:, 4] * V + c[:, 5] * ramp + c[:, 6] * bend - wanted
         by_T = -wanted - pull - c[:, 5] * ramp - 2.0 * c[:, 6] * bend
-        by_states = -sign * np.stack([c[:, 0], c[:, 1] * ramp, c[:, 2], c[:, 3] * ramp])
-        return np.stack([by_T, *by_states], axis=1), slack
+        by_states = -sign * np.stack([c[:, 0], c[:, 1] * unit, c[:, 2], c[:, 3] * unit])
+        return np.stack([by_T, *by_states, towards], axis=1), slack
 
     def curvature(self, states: tuple[Array, ...], weights: Array) -> Array:
         """Sum the rows' second derivatives per segment and joint, made positive semidefinite.
@@ -230,21 +240,25 @@ class ReachRows:
 
         Returns
         -------
-        Array, shape (K, n, 5, 5)
+        Array, shape (K, n, 6, 6)
+            Or (K, n, 5, 5) where no position is free, so that d is fixed.
         """
-        bends = np.empty((len(weights), 5, 5))
-        for i in range(5):
-            step = _STEP * (states[0] if i == 0 else np.ones(len(weights)))
+        size = 6 if self.task.in_zones else 5
+        bends = np.empty((len(weights), size, size))
+        for i in range(size):
+            step = _STEP * (states[0] if i in (0, 5) else np.ones(len(weights)))
             slopes = []
             for side in (1.0, -1.0):
                 near = tuple(value + side * step * (i == q) for q, value in enumerate(states))
                 slope = self.linearised(self.coefficients(near), near)[0]
                 slope[:, 0] *= states[0] / near[0]  # in units of the same T
                 slopes.append(slope)
-            bends[:, i] = (slopes[0] - slopes[1]) / (2.0 * _STEP)
-        K, n = self.relaxed.displacements.shape
-        total = np.zeros((K * n, 5, 5))
+            by = step if i == 5 else np.full(len(step), _STEP)
+            bends[:, i] = ((slopes[0] - slopes[1]) / (2.0 * by[:, None]))[:, :size]
+        K, n = self.task.displacements.shape
+        total = np.zeros((K * n, size, size))
         np.add.at(total, self.segment * n + self.joint, weights[:, None, None] * bends)
         values, vectors = np.linalg.eigh(total + total.transpose(0, 2, 1))
         kept = np.clip(0.5 * values, 0.0, None)
-        return np.asarray((vectors * kept[:, None, :]) @ vectors.transpose(0, 2, 1)).reshape(K, n, 5, 5)
+        found = (vectors * kept[:, None, :]) @ vectors.transpose(0, 2, 1)
+        return np.asarray(found).reshape(K, n, size, size)

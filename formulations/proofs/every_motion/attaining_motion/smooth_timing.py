@@ -30,8 +30,8 @@ from scipy.interpolate import CubicSpline
 from formulations.deadlines import NEVER, Deadline
 from formulations.deadlines.ipopt import StoppableIpopt
 from formulations.problem.arrays import Array
+from formulations.proofs.every_motion.attaining_motion.chain_task import ChainTask
 from formulations.proofs.every_motion.attaining_motion.reach_rows import ChainPoint
-from formulations.proofs.every_motion.relaxation.relaxed_problem import RelaxedProblem
 
 _OPTIONS: dict[str, Any] = {
     "ipopt.print_level": 0,
@@ -45,13 +45,13 @@ _OPTIONS: dict[str, Any] = {
 
 
 def smoothly_timed(
-    relaxed: RelaxedProblem, waypoints: Array, start: ChainPoint, deadline: Deadline = NEVER
+    task: ChainTask, waypoints: Array, start: ChainPoint, deadline: Deadline = NEVER
 ) -> ChainPoint | None:
     """Time the spline through the waypoints.
 
     Parameters
     ----------
-    relaxed : RelaxedProblem
+    task : ChainTask
     waypoints : Array, shape (K + 1, n) [rad]
         Of its joints.
     start : ChainPoint
@@ -78,15 +78,15 @@ def smoothly_timed(
         *(state[i] for state in (r, b) for i in (0, K)),  # at rest
     )
     limited = []
-    for j in range(len(relaxed.joints)):
+    for j in range(len(task.velocity)):
         q1, q2 = casadi.DM(first[:, j]), casadi.DM(bend[:, j])
-        limited.append(q1 * r / (relaxed.velocity[j] * second))
-        limited.append((q1 * b + q2 * r**2) / (relaxed.acceleration[j] * second**2))
-        if relaxed.has_jerk[j]:
+        limited.append(q1 * r / (task.velocity[j] * second))
+        limited.append((q1 * b + q2 * r**2) / (task.acceleration[j] * second**2))
+        if task.has_jerk[j]:
             q3 = casadi.DM(np.diff(bend[:, j]))
             for at in (slice(0, K), slice(1, K + 1)):
                 jerk = q1[at] * c + 3.0 * q2[at] * r[at] * b[at] + q3 * r[at] ** 3
-                limited.append(jerk / (relaxed.jerk[j] * second**3))
+                limited.append(jerk / (task.jerks[0, j] * second**3))
     blocks = [equal, *limited]
     nlp = {
         "x": casadi.vertcat(T, r, b, c),
@@ -112,7 +112,7 @@ def smoothly_timed(
         return None
     rate, slope = np.split(found[K : 3 * K + 2, None], 2)
     rate, slope = rate / second, slope / second**2
-    v, a = first * rate / relaxed.velocity, (first * slope + bend * rate**2) / relaxed.acceleration
+    v, a = first * rate / task.velocity, (first * slope + bend * rate**2) / task.acceleration
     v[[0, -1]] = a[[0, -1]] = 0.0
-    a[:, ~relaxed.has_jerk] = 0.0
-    return ChainPoint(np.maximum(found[:K] * second, relaxed.least), v, a)
+    a[:, ~task.has_jerk] = 0.0
+    return ChainPoint(np.maximum(found[:K] * second, task.least), v, a, np.zeros_like(v))

@@ -17,23 +17,20 @@ Fletcher 1987, "Practical Methods of Optimization", 2nd edition, sec. 12.4 and 1
 from __future__ import annotations
 
 from collections.abc import Callable
-from dataclasses import replace
 
 import numpy as np
 from scipy.sparse import csr_array, diags_array
 
 from formulations.deadlines import NEVER, Deadline
 from formulations.problem.arrays import Array
-from formulations.problem.problem import Problem
 from formulations.proofs.every_motion.attaining_motion.chain_columns import ChainColumns, stacked
+from formulations.proofs.every_motion.attaining_motion.chain_task import ChainTask
 from formulations.proofs.every_motion.attaining_motion.cruising_start import cruising_point
 from formulations.proofs.every_motion.attaining_motion.interior_point import minimise_in_band
+from formulations.proofs.every_motion.attaining_motion.peaks import PeakRows
 from formulations.proofs.every_motion.attaining_motion.reach_rows import ChainPoint, ReachRows
 from formulations.proofs.every_motion.attaining_motion.smooth_timing import smoothly_timed
-from formulations.proofs.every_motion.attaining_motion.states import MARGIN, WaypointStates
 from formulations.proofs.every_motion.attaining_motion.trust_region import TrustRegion
-from formulations.proofs.every_motion.closed_forms import stop_and_go_durations
-from formulations.proofs.every_motion.relaxation.relaxed_problem import RelaxedProblem
 
 _STEPS = 60
 _PRICE, _DEAREST = 8.0, 1e3  # of missing one unit of a segment's rows, in mean durations
@@ -45,6 +42,7 @@ _GENERATIONS = 2  # of rows that are kept then
 _CALM, _CALMER = 1e-3, 1e-2  # weight of the squared change of states, before and in the end
 _SLOWER = 10.0 ** np.arange(-7.0, 5.0)  # factors less 1, before bisection
 _BISECTIONS = 6
+_ROUNDING = 1e-12  # of a limit
 _DENSE = 0.1  # of top speed: what full acceleration gains in one segment of a dense path
 _MOST_MISSED = 2.0  # units that a step may miss there
 _ALLOWED, _STRICTER = 1.0, 0.8  # of that what no radius shrinks for, and how it falls from step to step
@@ -64,55 +62,54 @@ class ChainDescent:
 
     Attributes
     ----------
-    relaxed : RelaxedProblem
-        With limits lowered by a margin, that rounding does not break the problem's own.
     point : ChainPoint
     best : ChainPoint
         The fastest point at which all rows hold.
     converged : bool
+    dense : bool
+        Whether the steps between waypoints are too short to accelerate in, so that it did not begin at
+        stop and go.
     """
 
-    def __init__(self, problem: Problem, deadline: Deadline = NEVER) -> None:
+    def __init__(
+        self, task: ChainTask, start: ChainPoint, path: Array | None, deadline: Deadline = NEVER
+    ) -> None:
         """Begin with stop and go; on a dense path with a smooth timing of it.
 
         Parameters
         ----------
-        problem : Problem
-            With an acceleration limit or a jerk limit for each joint that moves.
+        task : ChainTask
+            With limits lowered by a margin, that rounding does not break those that are asked for.
+        start : ChainPoint
+            Stop and go.
+        path : Array or None, shape (K + 1, n) [rad]
+            The waypoints, where a dense path may begin with a smooth timing.
         deadline : Deadline
         """
-        self.problem = problem
-        v, a, j = problem.limits.derivatives * (1.0 - MARGIN)
-        lowered = replace(problem, limits=replace(problem.limits, velocity=v, acceleration=a, jerk=j))
-        times = stop_and_go_durations(problem)
-        self.relaxed = relaxed = RelaxedProblem.of(lowered, 10.0 * float(times.sum()), 0.0)
-        still = np.zeros((len(relaxed.segments) + 1, len(relaxed.joints)))
-        times = times[relaxed.segments] * (1.0 + 2.0 * MARGIN)
-        self.point = self.best = ChainPoint(times, still, still)
-        self.rows = ReachRows.of(relaxed)
-        self.columns = ChainColumns.of(len(times), relaxed.has_jerk)
-        with np.errstate(divide="ignore", invalid="ignore"):
-            share = relaxed.acceleration**2 / (2.0 * relaxed.jerk * relaxed.velocity)
-        self._peak = np.where(relaxed.has_jerk, share, 0.0)  # of |v| + a^2 / (2 J) over V
-        self._region = TrustRegion(relaxed)
-        self._price = np.full(len(times), _PRICE)
+        self.task = task
+        self.point = self.best = start
+        self.rows = ReachRows.of(task)
+        self.columns = ChainColumns.of(task)
+        self._peaks = PeakRows.of(task)
+        self._region = TrustRegion(task)
+        self._price = np.full(len(start.T), _PRICE)
         self._old: list[Array] = []
         self._weights = np.zeros(len(self.rows.segment))
-        self._peak_weights = np.zeros(still.shape)
-        self._missing = np.zeros(relaxed.displacements.shape)
-        self._foreseen = np.zeros(len(times))
+        self._curving = np.zeros(start.v.shape)  # curvature of the peaks' rows
+        self._missing = np.zeros(task.displacements.shape)
+        self._foreseen = np.zeros(len(start.T))
         self._failures = 0
         self._ending = self.converged = False
         self.dense = False
-        self._begin_without_stops(deadline)
+        if path is not None:
+            self._begin_without_stops(path, deadline)
 
-    def _begin_without_stops(self, deadline: Deadline) -> None:
+    def _begin_without_stops(self, path: Array, deadline: Deadline) -> None:
         """Begin at full speed where the steps between waypoints are too short to accelerate in."""
-        relaxed, stopping, point = self.relaxed, self.point, cruising_point(self.relaxed)
-        if float((point.T[:, None] * relaxed.acceleration / relaxed.velocity).mean()) > _DENSE:
+        task, stopping, point = self.task, self.point, cruising_point(self.task)
+        if float((point.T[:, None] * task.acceleration / task.velocity).mean()) > _DENSE:
             return
-        waypoints = self.problem.waypoints[np.ix_(relaxed.waypoints, relaxed.joints)]
-        timed = smoothly_timed(relaxed, waypoints, point, deadline)
+        timed = smoothly_timed(task, path, point, deadline)
         self.point = point if timed is None else timed
         self._keep_feasible()
         self.dense = self.best is not stopping
@@ -125,22 +122,6 @@ class ChainDescent:
     def seconds(self) -> float:
         """Time of the best point [s]."""
         return float(self.best.T.sum())
-
-    def states(self, point: ChainPoint) -> WaypointStates:
-        """The states of a point in rad/s and rad/s^2.
-
-        Parameters
-        ----------
-        point : ChainPoint
-
-        Returns
-        -------
-        WaypointStates
-        """
-        horizon = float(point.T.sum()) * (1.0 + MARGIN)
-        own = RelaxedProblem.of(self.problem, horizon)
-        relaxed = self.relaxed
-        return WaypointStates(own, point.v * relaxed.velocity, point.a * relaxed.acceleration)
 
     def run(
         self,
@@ -226,7 +207,7 @@ class ChainDescent:
         holds for every motion.
         """
         point = self.point
-        kept = self._missing, self._foreseen, self._weights, self._peak_weights
+        kept = self._missing, self._foreseen, self._weights, self._curving
         calm = np.zeros(self.columns.size)
         calm[self.columns.v], calm[self.columns.a] = _CALMER, _CALMER
         total = float(point.T.sum())
@@ -235,7 +216,7 @@ class ChainDescent:
             cuts: list[Array] = []
             for _ in range(_CUTS):
                 cuts.insert(0, self.rows.coefficients(self.rows.states(self.point)))
-                box = TrustRegion(self.relaxed).box(self.columns, self.point)
+                box = TrustRegion(self.task).box(self.columns, self.point)
                 box[self.columns.T] = (-1e-9, 1e-9)
                 self.point, _ = self._solved(cuts, box, csr_array(diags_array(calm)), 1e-8, deadline)
                 self._keep_feasible(_NARROW * share)
@@ -244,7 +225,7 @@ class ChainDescent:
             if deadline.over or self.best is best:
                 break
         self.point = point
-        self._missing, self._foreseen, self._weights, self._peak_weights = kept
+        self._missing, self._foreseen, self._weights, self._curving = kept
 
     def _solved(
         self,
@@ -255,7 +236,7 @@ class ChainDescent:
         deadline: Deadline,
     ) -> tuple[ChainPoint, bool]:
         """The point that a quadratic program leads to, and whether the program was solved."""
-        point, columns, relaxed = self.point, self.columns, self.relaxed
+        point, columns = self.point, self.columns
         states = self.rows.states(point)
         slopes, slacks = zip(*(self.rows.linearised(c, states) for c in generations), strict=True)
         slack = np.concatenate(slacks)
@@ -267,15 +248,16 @@ class ChainDescent:
         row = near % m
         unit = each[row]
         places = columns.of_rows(self.rows)[row]
-        kept = np.concatenate(slopes)[near] / unit[:, None]
+        kept = columns.slopes(np.concatenate(slopes)[near]) / unit[:, None]
         values = np.column_stack([kept, -np.ones(len(near))])
-        peak_slopes = 2.0 * self._peak * point.a
-        peak_slack = 1.0 - self._peak * point.a**2
-        ones = np.ones(point.v.size)
-        peaks = [np.column_stack([sign * ones, peak_slopes.ravel()]) for sign in (1.0, -1.0)]
-        peak_upper = [(peak_slack - sign * point.v).ravel() for sign in (1.0, -1.0)]
         pairs = np.column_stack([columns.v.ravel(), columns.a.ravel()])
-        matrix = stacked([(places, values), (pairs, peaks[0]), (pairs, peaks[1])], columns.size)
+        peaks, peak_upper, bends = [], [], []
+        for sign in (1.0, -1.0):
+            top, bend = self._peaks.at(point.a, sign)
+            peaks.append((pairs, np.column_stack([np.full(bend.size, sign), 2.0 * (bend * point.a).ravel()])))
+            peak_upper.append((top - bend * point.a**2 - sign * point.v).ravel())
+            bends.append(2.0 * bend)
+        matrix = stacked([(places, values), *peaks], columns.size)
         upper = np.concatenate([slack[near] / unit, *peak_upper])
         cost = np.zeros(columns.size)
         mean = float(point.T.mean())
@@ -295,10 +277,12 @@ class ChainDescent:
         weights = np.zeros(len(slack))
         weights[near] = found.multipliers[: len(near)] / unit
         self._weights = weights.reshape(len(generations), -1).sum(axis=0)
-        self._peak_weights = found.multipliers[len(near) :].reshape(2, *point.v.shape).sum(axis=0)
+        of_peaks = found.multipliers[len(near) :].reshape(2, *point.v.shape)
+        self._curving = (of_peaks * bends).sum(axis=0)
         self._foreseen = x[columns.missed]
-        T = np.maximum(point.T * (1.0 + x[columns.T]), relaxed.least)
-        return ChainPoint(T, point.v + x[columns.v], point.a + x[columns.a]), found.converged
+        T = np.maximum(point.T * (1.0 + x[columns.T]), self.task.least)
+        e = point.e + x[columns.e] if columns.e.size else point.e
+        return ChainPoint(T, point.v + x[columns.v], point.a + x[columns.a], e), found.converged
 
     def _quadratic(self, states: tuple[Array, ...]) -> csr_array:
         """Curvature of the rows, and a weight on each change of a state, which keeps idle joints calm."""
@@ -306,12 +290,12 @@ class ChainDescent:
         part = tuple(value[active] for value in states)
         blocks = self.rows[active].curvature(part, self._weights[active])
         calm = np.full(self.columns.v.shape, _CALMER if self._ending else _CALM)
-        return self.columns.quadratic(blocks, calm, 2.0 * self._peak * self._peak_weights + calm)
+        return self.columns.quadratic(blocks, calm, self._curving + calm)
 
     def _missing_at(self, point: ChainPoint, coefficients: Array) -> Array:
         states = self.rows.states(point)
         _, slack = self.rows.linearised(coefficients, states)
-        missing = np.zeros(self.relaxed.displacements.shape)
+        missing = np.zeros(self.task.displacements.shape)
         lacking = -slack / self.rows.units(states)
         np.maximum.at(missing, (self.rows.segment, self.rows.joint), lacking)
         return missing
@@ -339,8 +323,10 @@ class ChainDescent:
         self.best = self.point.slower(1.0 + high)
 
     def _holds(self, point: ChainPoint) -> bool:
-        peaks = np.abs(point.v) + self._peak * point.a**2
-        if max(peaks.max(), np.abs(point.a).max()) > 1.0 or (self.relaxed.least > point.T).any():
+        for value, box in zip((point.v, point.a), self.task.shares, strict=True):
+            if (value < box[..., 0] - _ROUNDING).any() or (value > box[..., 1] + _ROUNDING).any():
+                return False
+        if (self.task.least > point.T).any() or not self._peaks.kept(point.v, point.a):
             return False
         coefficients = self.rows.coefficients(self.rows.states(point))
         return bool(self._missing_at(point, coefficients).max() <= 1e-12)

@@ -10,8 +10,8 @@ import numpy as np
 
 from formulations.problem.arrays import Array, Truths
 from formulations.proofs.every_motion.attaining_motion.chain_columns import ChainColumns
+from formulations.proofs.every_motion.attaining_motion.chain_task import ChainTask
 from formulations.proofs.every_motion.attaining_motion.reach_rows import ChainPoint
-from formulations.proofs.every_motion.relaxation.relaxed_problem import RelaxedProblem
 
 _WIDEST, _NARROWER, _WIDER = 0.5, 0.6, 1.4
 _BEND = 0.3  # of what a row may miss: what the first step's change of a duration misses on a dense path
@@ -27,9 +27,9 @@ class TrustRegion:
     reach : Array, shape (K + 1, n)
     """
 
-    def __init__(self, relaxed: RelaxedProblem) -> None:
-        K, n = relaxed.displacements.shape
-        self.relaxed = relaxed
+    def __init__(self, task: ChainTask) -> None:
+        K, n = task.displacements.shape
+        self.task = task
         self.width, self.reach = np.full(K, _WIDEST), np.ones((K + 1, n))
 
     def suit(self, point: ChainPoint, units: Array) -> None:
@@ -41,7 +41,7 @@ class TrustRegion:
         units : Array, shape (K, n)
             Of the rows. A relative change x of a duration misses about x^2 of the mean speed.
         """
-        speed = np.abs(self.relaxed.displacements) / (point.T[:, None] * self.relaxed.velocity)
+        speed = np.abs(self.task.displacements) / (point.T[:, None] * self.task.velocity)
         width = np.sqrt(_BEND * units / np.maximum(speed, 1e-9)).min(axis=1)
         self.width = np.clip(width, 1e-4, _WIDEST)
 
@@ -80,13 +80,21 @@ class TrustRegion:
         Array, shape (size, 2)
         """
         box = np.zeros((columns.size, 2))
-        shortest = np.maximum(-self.width / (1.0 + self.width), self.relaxed.least / point.T - 1.0)
+        shortest = np.maximum(-self.width / (1.0 + self.width), self.task.least / point.T - 1.0)
         box[columns.T] = np.column_stack([np.minimum(shortest, -1e-6), self.width])
         box[columns.missed] = (0.0, 10.0)
-        for column, value, reach in ((columns.v, point.v, 1.0), (columns.a, point.a, 2.0)):
-            low = np.maximum(-reach * self.reach, -1.0 - value)
-            high = np.minimum(reach * self.reach, 1.0 - value)
+        of_v, of_a = self.task.shares
+        for column, value, reach, share in (
+            (columns.v, point.v, 1.0, of_v),
+            (columns.a, point.a, 2.0, of_a),
+        ):
+            low = np.maximum(-reach * self.reach, share[..., 0] - value)
+            high = np.minimum(reach * self.reach, share[..., 1] - value)
             box[column] = np.stack([np.minimum(low, -1e-9), np.maximum(high, 1e-9)], axis=-1)
+        if columns.e.size:
+            zones = self.task.zones / self.task.velocity
+            low, high = np.minimum(-zones - point.e, -1e-12), np.maximum(zones - point.e, 1e-12)
+            box[columns.e] = np.stack([low, high], axis=-1)
         return box
 
 
