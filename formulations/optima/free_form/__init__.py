@@ -9,6 +9,7 @@ vanishing         zones that are passed at one time
 why_not           why there is no motion, and the nearest times that are possible
 stop_and_go       the motion that is always there, in closed form
 many_waypoints    through many waypoints: a search that takes time in proportion to them
+chains            what that search has to keep, and its points as motions
 faults            what a motion keeps badly: position limits, times
 retiming          each segment's least time between waypoint states, by Ruckig
 sensitivity       what each limit costs, from the multipliers

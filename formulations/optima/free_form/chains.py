@@ -99,19 +99,20 @@ class ConditionedChain:
             That a motion slowed down as a whole still keeps.
         """
         self.asked, joints = task, task.moving
-        limits = np.stack([*(each[..., 1] for each in task.intervals), task.limits[2]])
-        limits = np.where(np.isfinite(limits), limits, 0.0)[:, :, joints] * (1.0 - MARGIN)
-        # where neither acceleration nor jerk ... a joint has one of them: see ``has_many_waypoints``
+        v, a, jerk = (limit[:, joints] * (1.0 - MARGIN) for limit in task.limits)
+        jerk = np.where(np.isfinite(jerk), jerk, 0.0)
         low, high = np.moveaxis(task.boxes[:, joints], -1, 0)
         self.middles = 0.5 * (low + high)
-        least = (np.maximum(low[1:] - high[:-1], low[:-1] - high[1:]) / limits[0]).max(axis=1)
+        least = (np.maximum(low[1:] - high[:-1], low[:-1] - high[1:]) / v).max(axis=1)
         self.task = ChainTask(
             np.diff(self.middles, axis=0),
             np.where(high > low, np.minimum(high - self.middles, self.middles - low), 0.0),
             np.maximum(least, task.durations[:, 0]),
-            *limits,
-            self._boxes(limits[0], task.ends[:, joints]),
-            self._boxes(limits[1] * (limits[2] > 0.0), task.end_accelerations[:, joints]),
+            v,
+            a,
+            jerk,
+            self._boxes(v, task.ends[:, joints]),
+            self._boxes(a * (jerk > 0.0), task.end_accelerations[:, joints]),
         )
         motion = stop_and_go_motion(task)
         still = np.zeros(self.middles.shape)
@@ -121,11 +122,9 @@ class ConditionedChain:
 
     def _boxes(self, limits: Array, given: Array) -> Array:
         """Intervals at the waypoints, (S + 1, n, 2), from limits of segments and what is given at the ends."""
-        most = np.minimum(
-            np.concatenate([limits[:1], limits]), np.concatenate([limits, limits[-1:]])
-        )
+        most = np.minimum(np.concatenate([limits[:1], limits]), np.concatenate([limits, limits[-1:]]))
         most[self.asked.stops] = 0.0
-        found = most[..., None] * (-1.0, 1.0)
+        found: Array = most[..., None] * np.array([-1.0, 1.0])
         for end in (0, -1):
             found[end] = np.where(np.isnan(given[end])[:, None], found[end], given[end][:, None])
         return found

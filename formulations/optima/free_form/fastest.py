@@ -60,7 +60,9 @@ def free_form(
     own. Such arcs can represent the optimum exactly.
 
     Through many waypoints (40 segments, and 200 segments times joints) a search over durations and waypoint
-    states takes over, in time proportional to the number of waypoints; it has no ``sensitivity``.
+    states takes over, in time proportional to the number of waypoints; it has no ``sensitivity``. It knows
+    zones, stops, waits, free ends, least times and limits of single segments; other conditions, and limits
+    that differ by direction, are left to the programs.
 
     The returned motion is verified: an independent check, which computes exact extremes of all
     polynomials, confirms its waypoints, limits and conditions. So its time is an upper bound on the

@@ -67,7 +67,7 @@ def has_many_waypoints(task: ConditionedProblem) -> bool:
 def _gaps(task: ConditionedProblem) -> Array:
     """How far the moving joints have to go at least, (S, n) [rad]."""
     low, high = np.moveaxis(task.boxes[:, task.moving], -1, 0)
-    return np.maximum(np.maximum(low[1:] - high[:-1], low[:-1] - high[1:]), 0.0)
+    return np.asarray(np.maximum(low[1:] - high[:-1], low[:-1] - high[1:]).clip(0.0))
 
 
 def is_final(found: FoundInLinearTime, task: ConditionedProblem) -> bool:

@@ -101,7 +101,7 @@ class ChainColumns(NamedTuple):
         -------
         csr_array, shape (size, size)
         """
-        k, j = np.indices(blocks.shape[:2])
+        k, j = (np.asarray(index) for index in np.indices(blocks.shape[:2]))
         place = np.stack(self._around(k, j), axis=-1)
         if self.e.size:
             to_columns = np.vstack([np.eye(5, 7), [0.0, 0.0, 0.0, 0.0, 0.0, -1.0, 1.0]])

@@ -254,7 +254,9 @@ class ChainDescent:
         peaks, peak_upper, bends = [], [], []
         for sign in (1.0, -1.0):
             top, bend = self._peaks.at(point.a, sign)
-            peaks.append((pairs, np.column_stack([np.full(bend.size, sign), 2.0 * (bend * point.a).ravel()])))
+            peaks.append(
+                (pairs, np.column_stack([np.full(bend.size, sign), 2.0 * (bend * point.a).ravel()]))
+            )
             peak_upper.append((top - bend * point.a**2 - sign * point.v).ravel())
             bends.append(2.0 * bend)
         matrix = stacked([(places, values), *peaks], columns.size)

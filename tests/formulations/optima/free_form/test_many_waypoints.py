@@ -1,10 +1,13 @@
 """The search in linear time, beside the nonlinear program of the whole motion; and its interrupts."""
 
+from dataclasses import replace
+
 import numpy as np
 import pytest
 
 from formulations import Limits, Problem, check, free_form
 from formulations.optima.free_form import SearchStatus, many_waypoints
+from formulations.proofs.every_motion.attaining_motion.chain_task import ChainTask
 from formulations.proofs.every_motion.attaining_motion.reach_rows import ChainPoint, ReachRows
 from formulations.proofs.every_motion.relaxation.relaxed_problem import RelaxedProblem
 
@@ -85,14 +88,16 @@ def test_progress_only_gets_faster(always):
 
 def test_slopes_are_those_of_difference_quotients():
     problem = random_problem(6, 2)
-    relaxed = RelaxedProblem.of(problem, 100.0, 0.0)
-    rows, rng = ReachRows.of(relaxed), np.random.default_rng(1)
-    point = ChainPoint(
-        rng.uniform(0.3, 0.6, 5), rng.uniform(-0.3, 0.3, (6, 2)), rng.uniform(-0.3, 0.3, (6, 2))
-    )
+    task = ChainTask.of(RelaxedProblem.of(problem, 100.0, 0.0))
+    lower = np.random.default_rng(2).uniform(0.5, 1.0, (3, 5, 2))  # limits of each segment
+    limits = (task.velocities, task.accelerations, task.jerks) * lower
+    task = replace(task, velocities=limits[0], accelerations=limits[1], jerks=limits[2])
+    rows, rng = ReachRows.of(task), np.random.default_rng(1)
+    v, a, e = (rng.uniform(-size, size, (6, 2)) for size in (0.3, 0.3, 0.02))
+    point = ChainPoint(rng.uniform(0.3, 0.6, 5), v, a, e)
     states = rows.states(point)
     slopes, slack = rows.linearised(rows.coefficients(states), states)
-    for i in range(5):
+    for i in range(6):
         step = 1e-6 * (states[0] if i == 0 else 1.0)
         near = tuple(value + step * (i == q) for q, value in enumerate(states))
         _, there = rows.linearised(rows.coefficients(near), near)
