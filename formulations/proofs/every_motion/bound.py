@@ -20,6 +20,8 @@ from formulations.problem.errors import InputError
 from formulations.problem.problem import Problem
 from formulations.problem.size import require_moderate
 from formulations.proofs.certificate import certificate_of
+from formulations.proofs.every_motion.attaining_motion.hunt import MotionHunt
+from formulations.proofs.every_motion.attaining_motion.relaxed_motion import SearchNear
 from formulations.proofs.every_motion.horizons import HorizonSearch
 from formulations.proofs.every_motion.zones import ZoneSearch
 from formulations.proofs.status import BoundStatus
@@ -112,6 +114,7 @@ def free_form_bound(
     stop: Stop | None = None,
     record: bool = False,
     progress: Callable[[float, float | None], None] | None = None,
+    near: SearchNear | None = None,
 ) -> FreeFormBound:
     """Prove a lower bound on the total time of all motions through the waypoints.
 
@@ -151,6 +154,9 @@ def free_form_bound(
         may prove slightly less.
     progress : callable, optional
         Called as ``progress(bound, upper)`` [s] whenever the bound may have grown.
+    near : callable, optional
+        Called with points of the relaxation where the gap is not reached: it searches for motions near one, and
+        returns the time of the fastest motion that is verified [s]. ``proved_motion`` uses it.
 
     Returns
     -------
@@ -210,7 +216,9 @@ def free_form_bound(
     demands = with_tool_times(stated)
     deadline = Deadline(time_limit, stop)
     zones = (demands.waypoints[..., 0] < demands.waypoints[..., 1]).any()
-    search = (ZoneSearch if zones else HorizonSearch)(demands, upper, progress)
+    search = (ZoneSearch if zones else HorizonSearch)(
+        demands, MotionHunt(problem, upper, near), progress
+    )
     ending = search.run(gap, deadline)
     certificate = None
     if record and search.seconds > 0.0:

@@ -18,6 +18,7 @@ from formulations.motion.trajectory import Trajectory
 from formulations.problem.arrays import Array
 from formulations.problem.demands import Demands
 from formulations.proofs.every_motion.attaining_motion.hunt import MotionHunt
+from formulations.proofs.every_motion.attaining_motion.relaxed_motion import RelaxedMotion
 from formulations.proofs.every_motion.beginnings import first_bounds, first_boxes, tangents
 from formulations.proofs.every_motion.closed_forms import bound_at_top_speed
 from formulations.proofs.every_motion.events import bound_with_events
@@ -73,7 +74,7 @@ class HorizonSearch:
     def __init__(
         self,
         demands: Demands,
-        upper: float | None,
+        hunt: MotionHunt,
         progress: Callable[[float, float | None], None] | None,
     ) -> None:
         """Compute the bounds in closed form.
@@ -81,18 +82,18 @@ class HorizonSearch:
         Parameters
         ----------
         demands : Demands
-        upper : float or None [s]
-            Time of a verified motion, if one is known.
+        hunt : MotionHunt
+            With what is known of the fastest motion.
         progress : callable or None
             Called as ``progress(bound, upper)`` whenever the relaxation proved a bound.
         """
         self.demands, self.progress = demands, progress
-        self.problem = problem = demands.problem
+        self.problem = demands.problem
         self.without = self.idle = idle_waypoints(demands)
         self.plain = demands.plain
         self.bounds, self.typical, self.slowest = first_bounds(demands)
         self.cuts = Cuts.none()
-        self.hunt = MotionHunt(problem, upper)
+        self.hunt = hunt
         self.durations: Array | None = None
         self.savings: Array | None = None
         self.rows = 0
@@ -228,6 +229,8 @@ class HorizonSearch:
             if self.plain:
                 of_bound = {"bound": self.seconds, "gap": gap}
                 self.hunt.look(typical, program.cuts, **of_bound, deadline=deadline)
+            if not self.met(gap):
+                self.hunt.search_near(RelaxedMotion.of(self.demands, frame, solution.x))
             if self.met(gap):
                 return Ending(BoundStatus.PROVED), boxes
             if self.hunt.attained <= self.seconds * (1.0 + gap):

@@ -1,4 +1,8 @@
-"""The hunt for a motion that attains the bound of the relaxation: durations are tried, stretched a little."""
+"""The hunt for a motion that attains the bound of the relaxation.
+
+Of a plain problem durations are tried, stretched a little. A search from elsewhere begins at the relaxation's
+waypoint states where the motion known is not near enough.
+"""
 
 from __future__ import annotations
 
@@ -11,14 +15,16 @@ from formulations.problem.arrays import Array
 from formulations.problem.problem import Problem
 from formulations.proofs.every_motion.attaining_motion.durations import descend
 from formulations.proofs.every_motion.attaining_motion.motion import connect
+from formulations.proofs.every_motion.attaining_motion.relaxed_motion import RelaxedMotion, SearchNear
 from formulations.proofs.every_motion.attaining_motion.states import find_states
 from formulations.proofs.every_motion.relaxation.cuts import Cuts
 
 _STRETCHES = (2e-7, 1e-6, 1e-5, 1e-4, 1e-3, 1e-2)  # of durations, tried for a motion
+_SEARCHED = (1, 2, 4, 8)  # points of the relaxation at which the search from elsewhere begins
 
 
 class MotionHunt:
-    """The fastest motion known of a problem without conditions, and what was tried for it.
+    """The fastest motion known of a problem, and what was tried for it.
 
     Attributes
     ----------
@@ -30,7 +36,7 @@ class MotionHunt:
         Time of the fastest motion found that may leave the position limits.
     """
 
-    def __init__(self, problem: Problem, upper: float | None) -> None:
+    def __init__(self, problem: Problem, upper: float | None, near: SearchNear | None = None) -> None:
         """Begin with what is known.
 
         Parameters
@@ -38,11 +44,15 @@ class MotionHunt:
         problem : Problem
         upper : float or None [s]
             Time of a verified motion.
+        near : callable, optional
+            Searches for motions near a point of the relaxation, and returns the time of the fastest one that
+            is verified.
         """
         self.problem, self.upper = problem, upper
         self.motion: Trajectory | None = None
         self.attained = np.inf
         self._looking = upper is None  # whether durations nearby are worth their time
+        self._near, self._points = near, 0
 
     def look(
         self, durations: Array, cuts: Cuts, *, bound: float, gap: float, deadline: Deadline
@@ -73,6 +83,21 @@ class MotionHunt:
                 if self._try(durations * (1.0 + stretch), cuts, deadline):
                     self._looking = False
                     return
+
+    def search_near(self, point: RelaxedMotion) -> None:
+        """Search near a point of the relaxation, to which the motion known is not near enough.
+
+        Parameters
+        ----------
+        point : RelaxedMotion
+            Later ones differ less and less, so that few of them are worth a search.
+        """
+        self._points += 1
+        if self._near is None or self._points not in _SEARCHED:
+            return
+        seconds = self._near(point)
+        if seconds is not None and (self.upper is None or seconds < self.upper):
+            self.upper, self.motion = seconds, None
 
     def _try(self, durations: Array, cuts: Cuts, deadline: Deadline) -> bool:
         """Whether a longer stretch is pointless; a motion that passes the check and is fastest is kept."""
