@@ -84,7 +84,7 @@ def proved_motion(
     """
     problem, asked, deadline = found.problem, found.conditions, Deadline(time_limit, stop)
     task = ConditionedProblem(problem, asked)
-    local = not (asked.ties_joints or task.timed or has_many_waypoints(task))
+    local = not (asked.ties_joints or has_many_waypoints(task))
     known = None if found.trajectory is None else min(found.seconds, upper or np.inf)
     best = found
 
@@ -101,10 +101,10 @@ def proved_motion(
         time_limit=time_limit,
         stop=stop,
         record=record,
-        near=near if local and known is not None else None,
+        near=near if local and not task.timed and known is not None else None,
     )
-    if bound.motion is not None and bound.motion.seconds < best.seconds:
-        verdict = check(problem, bound.motion)  # one is looked for where there are no conditions
+    if bound.motion is not None and bound.motion.seconds < best.seconds and not task.timed:
+        verdict = check(problem, bound.motion, conditions=asked)
         best = _replaced(best, "attains the bound", bound.motion, verdict)
     if best is not found and best.seconds <= bound.seconds * (1.0 + gap):
         best = replace(best, status=SearchStatus.OK, reason="")
