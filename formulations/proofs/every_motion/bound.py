@@ -155,8 +155,8 @@ def free_form_bound(
     progress : callable, optional
         Called as ``progress(bound, upper)`` [s] whenever the bound may have grown.
     near : callable, optional
-        Called with points of the relaxation where the gap is not reached: it searches for motions near one, and
-        returns the time of the fastest motion that is verified [s]. ``proved_motion`` uses it.
+        Called with a point of the relaxation where narrower boxes do not reach the gap. It searches for motions
+        near that point, and returns the time of the fastest one that is verified [s]: ``proved_motion`` does.
 
     Returns
     -------

@@ -184,6 +184,10 @@ class HorizonSearch:
                 return ending
             if not self.seconds > 0.0:
                 return Ending(BoundStatus.SIMPLE, "nothing forces it to take time")
+            if self.seconds < horizon:
+                self.hunt.search_near()
+            if self.met(gap):
+                return Ending(BoundStatus.PROVED)
             if horizon > self.seconds * (1.0 + _FAR):
                 ahead = _AHEAD
                 continue
@@ -229,8 +233,8 @@ class HorizonSearch:
             if self.plain:
                 of_bound = {"bound": self.seconds, "gap": gap}
                 self.hunt.look(typical, program.cuts, **of_bound, deadline=deadline)
-            if not self.met(gap):
-                self.hunt.search_near(RelaxedMotion.of(self.demands, frame, solution.x))
+            if not self.met(gap) and self.without == self.idle:
+                self.hunt.note(RelaxedMotion.of(self.demands, frame, solution.x))
             if self.met(gap):
                 return Ending(BoundStatus.PROVED), boxes
             if self.hunt.attained <= self.seconds * (1.0 + gap):

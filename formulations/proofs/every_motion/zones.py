@@ -11,7 +11,6 @@ from __future__ import annotations
 import numpy as np
 
 from formulations.deadlines import Deadline
-from formulations.proofs.every_motion.attaining_motion.relaxed_motion import RelaxedMotion
 from formulations.proofs.every_motion.beginnings import first_boxes, tangents
 from formulations.proofs.every_motion.horizons import ROUNDS, Ending, HorizonSearch
 from formulations.proofs.every_motion.relaxation.cuts import Cuts
@@ -58,9 +57,9 @@ class ZoneSearch(HorizonSearch):
         zones = sorted(wide - self.idle)
         if len(zones) > _FEW:
             return
-        best = self._first_bound(gap, deadline)
+        best = self._first_bound(deadline)
         self.without = self.idle | frozenset(zones)
-        found = self._first_bound(gap, deadline)
+        found = self._first_bound(deadline)
         if found >= best:
             return
         self.without = self.idle
@@ -68,12 +67,12 @@ class ZoneSearch(HorizonSearch):
             if deadline.over or (self.upper is not None and self.upper <= best * (1.0 + gap)):
                 return
             before, self.without = self.without, self.without | {waypoint}
-            found = self._first_bound(gap, deadline)
+            found = self._first_bound(deadline)
             if found < best * (1.0 - _EQUAL):
                 self.without = before
             best = max(best, found)
 
-    def _first_bound(self, gap: float, deadline: Deadline) -> float:
+    def _first_bound(self, deadline: Deadline) -> float:
         """The bound in the first boxes, for the waypoints that are not left out [s]."""
         relaxed = self.relaxed(self.known)
         boxes = first_boxes(self.demands, relaxed, None)
@@ -82,7 +81,4 @@ class ZoneSearch(HorizonSearch):
         frame = Frame(relaxed, boxes, relaxed.units(self.typical))
         program = LinearProgram(frame, tangents(boxes.durations))
         found = program.solve(frame.cost, rounds=ROUNDS, tolerance=_COARSE, deadline=deadline)
-        bound = min(found.bound, relaxed.horizon) + relaxed.waits
-        if self.without == self.idle and self.known > bound * (1.0 + gap):
-            self.hunt.search_near(RelaxedMotion.of(self.demands, frame, found.x))
-        return bound
+        return min(found.bound, relaxed.horizon) + relaxed.waits

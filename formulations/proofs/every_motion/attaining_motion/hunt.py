@@ -20,7 +20,7 @@ from formulations.proofs.every_motion.attaining_motion.states import find_states
 from formulations.proofs.every_motion.relaxation.cuts import Cuts
 
 _STRETCHES = (2e-7, 1e-6, 1e-5, 1e-4, 1e-3, 1e-2)  # of durations, tried for a motion
-_SEARCHED = (1, 2, 4, 8)  # points of the relaxation at which the search from elsewhere begins
+_PATIENCE, _SEARCHES = 4, 4  # points before a search from elsewhere; such searches at most
 
 
 class MotionHunt:
@@ -52,7 +52,8 @@ class MotionHunt:
         self.motion: Trajectory | None = None
         self.attained = np.inf
         self._looking = upper is None  # whether durations nearby are worth their time
-        self._near, self._points = near, 0
+        self._near, self._points, self._searches = near, 0, 0
+        self._point: RelaxedMotion | None = None  # the last one, where no search has begun
 
     def look(
         self, durations: Array, cuts: Cuts, *, bound: float, gap: float, deadline: Deadline
@@ -84,17 +85,25 @@ class MotionHunt:
                     self._looking = False
                     return
 
-    def search_near(self, point: RelaxedMotion) -> None:
-        """Search near a point of the relaxation, to which the motion known is not near enough.
+    def note(self, point: RelaxedMotion) -> None:
+        """Keep a point of the relaxation, to which the motion known is not near enough.
+
+        Mostly the next narrower boxes prove that it is. So the search from elsewhere waits for a few points.
 
         Parameters
         ----------
         point : RelaxedMotion
-            Later ones differ less and less, so that few of them are worth a search.
         """
-        self._points += 1
-        if self._near is None or self._points not in _SEARCHED:
+        self._point, self._points = point, self._points + 1
+        if self._points == _PATIENCE:
+            self.search_near()
+
+    def search_near(self) -> None:
+        """Search near the last point, as narrower boxes prove no more though they hold the motion known."""
+        point = self._point
+        if self._near is None or point is None or self._searches == _SEARCHES:
             return
+        self._point, self._searches = None, self._searches + 1
         seconds = self._near(point)
         if seconds is not None and (self.upper is None or seconds < self.upper):
             self.upper, self.motion = seconds, None

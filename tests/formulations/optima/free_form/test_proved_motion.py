@@ -127,21 +127,25 @@ def test_the_ladder_takes_the_faster_motion() -> None:
     assert answer.free_form.seconds == said[1].seconds
 
 
-def test_only_a_faster_motion_counts() -> None:
-    answers = iter([None, 3.0, 1.5])
+def test_only_a_faster_motion_counts_and_no_point_is_searched_twice() -> None:
+    answers = iter([None, 3.0, 1.5, 1.6])
     asked = []
 
     def near(point: RelaxedMotion) -> float | None:
         asked.append(point)
         return next(answers)
 
-    hunt, point = MotionHunt(LINE, 2.0, near), at_waypoints(LINE, np.ones(2), np.zeros((3, 2)))
-    known = []
-    for _ in range(4):
-        hunt.search_near(point)
+    hunt, known = MotionHunt(LINE, 2.0, near), []
+    points = [at_waypoints(LINE, np.full(2, 1.0 + k), np.zeros((3, 2))) for k in range(8)]
+    for point in points[:3]:
+        hunt.note(point)
+    assert not asked  # mostly narrower boxes prove that the motion known is near enough
+    for point in points[3:]:
+        hunt.note(point)
+        hunt.search_near()
         known.append(hunt.upper)
-    assert known == [2.0, 2.0, 2.0, 1.5]  # the third point is too near to the second
-    assert len(asked) == 3
+    assert asked == points[3:7]  # the fourth was searched once; four searches are enough
+    assert known == [2.0, 2.0, 1.5, 1.5, 1.5]
 
 
 def at_waypoints(problem: Problem, durations: np.ndarray, states: np.ndarray) -> RelaxedMotion:
