@@ -23,6 +23,7 @@ from formulations.proofs.certificate import certificate_of
 from formulations.proofs.every_motion.attaining_motion.hunt import MotionHunt
 from formulations.proofs.every_motion.attaining_motion.relaxed_motion import SearchNear
 from formulations.proofs.every_motion.horizons import HorizonSearch
+from formulations.proofs.every_motion.recorded import proved_again
 from formulations.proofs.every_motion.zones import ZoneSearch
 from formulations.proofs.status import BoundStatus
 from formulations.proofs.tool.least_times import with_tool_times
@@ -223,7 +224,7 @@ def free_form_bound(
     certificate = None
     if record and search.seconds > 0.0:
         left = max(2.0 * time_limit - (time.perf_counter() - started), 0.0)
-        seconds, horizon, events = search.certify(Deadline(left, stop))
+        seconds, horizon, events = proved_again(search, Deadline(left, stop))
         asked = None if search.plain else stated
         certificate = certificate_of(problem, seconds, events, horizon=horizon, demands=asked)
         if asked is not None:

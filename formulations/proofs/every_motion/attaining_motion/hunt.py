@@ -34,6 +34,8 @@ class MotionHunt:
         That motion, if it was found here.
     attained : float [s]
         Time of the fastest motion found that may leave the position limits.
+    given : bool
+        Whether a motion was known before.
     """
 
     def __init__(self, problem: Problem, upper: float | None, near: SearchNear | None = None) -> None:
@@ -51,7 +53,8 @@ class MotionHunt:
         self.problem, self.upper = problem, upper
         self.motion: Trajectory | None = None
         self.attained = np.inf
-        self._looking = upper is None  # whether durations nearby are worth their time
+        self.given = upper is not None
+        self._looking = not self.given  # whether durations nearby are worth their time
         self._near, self._points, self._searches = near, 0, 0
         self._point: RelaxedMotion | None = None  # the last one, where no search has begun
 
