@@ -309,7 +309,7 @@ class HorizonSearch:
     def _note(self, frame: Frame, solution: LPSolution, gap: float) -> None:
         """Tell the hunt where the relaxation passes the waypoints, if no zone is left out that counts."""
         if not self.met(gap) and self.without == self.idle:
-            self.hunt.note(RelaxedMotion.of(self.demands, frame, solution.x))
+            self.hunt.point = RelaxedMotion.of(self.demands, frame, solution.x)
 
     def _describe(self, program: LinearProgram, solution: LPSolution) -> None:
         """Keep the durations and the savings of a solve."""

@@ -20,7 +20,7 @@ from formulations.proofs.every_motion.attaining_motion.states import find_states
 from formulations.proofs.every_motion.relaxation.cuts import Cuts
 
 _STRETCHES = (2e-7, 1e-6, 1e-5, 1e-4, 1e-3, 1e-2)  # of durations, tried for a motion
-_PATIENCE, _SEARCHES = 4, 4  # points before a search from elsewhere; such searches at most
+_SEARCHES = 4  # from elsewhere, at most
 
 
 class MotionHunt:
@@ -36,6 +36,8 @@ class MotionHunt:
         Time of the fastest motion found that may leave the position limits.
     given : bool
         Whether a motion was known before.
+    point : RelaxedMotion or None
+        The last point of the relaxation, if no search has begun there.
     """
 
     def __init__(self, problem: Problem, upper: float | None, near: SearchNear | None = None) -> None:
@@ -55,8 +57,8 @@ class MotionHunt:
         self.attained = np.inf
         self.given = upper is not None
         self._looking = not self.given  # whether durations nearby are worth their time
-        self._near, self._points, self._searches = near, 0, 0
-        self._point: RelaxedMotion | None = None  # the last one, where no search has begun
+        self.point: RelaxedMotion | None = None
+        self._near, self._searches = near, 0
 
     def look(
         self, durations: Array, cuts: Cuts, *, bound: float, gap: float, deadline: Deadline
@@ -88,25 +90,15 @@ class MotionHunt:
                     self._looking = False
                     return
 
-    def note(self, point: RelaxedMotion) -> None:
-        """Keep a point of the relaxation, to which the motion known is not near enough.
-
-        Mostly the next narrower boxes prove that it is. So the search from elsewhere waits for a few points.
-
-        Parameters
-        ----------
-        point : RelaxedMotion
-        """
-        self._point, self._points = point, self._points + 1
-        if self._points == _PATIENCE:
-            self.search_near()
-
     def search_near(self) -> None:
-        """Search near the last point, as narrower boxes prove no more though they hold the motion known."""
-        point = self._point
+        """Search near the last point: narrower boxes prove no more, though they hold the motion known.
+
+        Mostly they do prove that this motion is near enough. So nothing is searched before.
+        """
+        point = self.point
         if self._near is None or point is None or self._searches == _SEARCHES:
             return
-        self._point, self._searches = None, self._searches + 1
+        self.point, self._searches = None, self._searches + 1
         seconds = self._near(point)
         if seconds is not None and (self.upper is None or seconds < self.upper):
             self.upper, self.motion = seconds, None
