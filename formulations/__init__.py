@@ -11,7 +11,7 @@ from formulations.optima.at_rate.export import Export, export_motion
 from formulations.optima.family.chord_lengths import chord_lengths
 from formulations.optima.family.optimum import FamilyOptimum, family_optimum
 from formulations.optima.family.papers_rule import longest_segment
-from formulations.optima.free_form import FreeForm, Sensitivity, free_form
+from formulations.optima.free_form import FreeForm, Sensitivity, free_form, proved_motion
 from formulations.planning import PlannedMotion, plan
 from formulations.problem.conditions import Conditions
 from formulations.problem.errors import InputError, NoFeasibleMotion, NotFoundInTime, UnsupportedProblem
@@ -60,6 +60,7 @@ __all__ = [
     "longest_segment",
     "parse",
     "plan",
+    "proved_motion",
     "proved_optimum",
     "read_motion",
     "read_points",

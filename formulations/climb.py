@@ -144,6 +144,8 @@ class Climb:
         Number of starts of the family's NLP; by default one, where a short proof shows that it suffices.
     results, durations, trajectories, optimum, alone, bound, free_form, free_form_bound
         As in ``Ladder``.
+    finished : callable
+        Called with every result as soon as it is there.
     """
 
     problem: Problem
@@ -161,11 +163,27 @@ class Climb:
     bound: FamilyBound | None = None
     free_form: FreeForm | None = None
     free_form_bound: FreeFormBound | None = None
+    finished: Callable[[RungResult], None] = lambda result: None
 
     @property
     def search(self) -> dict[str, Any]:
         """Options of every search for an optimum of the family."""
         return {"starts": self.starts, "seed": self.seed, "stop": self.deadline.stop}
+
+    def proof(self, seconds: float) -> dict[str, Any]:
+        """List options of a proof.
+
+        Parameters
+        ----------
+        seconds : float [s]
+            Its time limit.
+
+        Returns
+        -------
+        dict
+        """
+        left = self.deadline.within(seconds).left
+        return {"time_limit": left, "stop": self.deadline.stop, "record": self.certificate}
 
     def seconds(self, key: str) -> float | None:
         """Return the number of a rung climbed before.
@@ -203,8 +221,9 @@ class Climb:
         -------
         Ladder
         """
+        self.finished = finished
         for rung in rungs.values():
-            self._climb(rung, rungs, progress, finished)
+            self._climb(rung, rungs, progress)
         return Ladder(
             self.problem,
             {key: self.results[key] for key in rungs},
@@ -222,23 +241,33 @@ class Climb:
         rung: Rung,
         rungs: Mapping[str, Rung],
         progress: Callable[[str], None],
-        finished: Callable[[RungResult], None],
     ) -> None:
         if rung.key in self.results:
             return
         for key in rung.after:
             if key in rungs:
-                self._climb(rungs[key], rungs, progress, finished)
+                self._climb(rungs[key], rungs, progress)
         progress(rung.key)
         started = time.perf_counter()
-        outcome = self._judged(rung, self._found(rung))
-        runtime = time.perf_counter() - started
+        outcome = self._found(rung)
+        self.record(rung, outcome, time.perf_counter() - started)
+
+    def record(self, rung: Rung, outcome: Outcome, runtime: float) -> None:
+        """Judge what was found for a rung and keep it, in place of what was found before.
+
+        Parameters
+        ----------
+        rung : Rung
+        outcome : Outcome
+        runtime : float [s]
+        """
+        outcome = self._judged(rung, outcome)
         shown = rung.kind is RungKind.LOWER or outcome.trajectory is not None
         certified = rung.certified and outcome.status is OutcomeStatus.OK and shown
         self.results[rung.key] = RungResult(
             rung.key, rung.kind, outcome.status, outcome.seconds, certified, runtime, outcome.note
         )
-        finished(self.results[rung.key])
+        self.finished(self.results[rung.key])
         if outcome.durations is not None:
             self.durations[rung.key] = outcome.durations
         if outcome.trajectory is not None:

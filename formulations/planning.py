@@ -16,11 +16,11 @@ from formulations.motion.picture import motion_picture
 from formulations.motion.trajectory import Trajectory
 from formulations.motion.verdict import Verdict
 from formulations.optima.at_rate.export import Export, check_export, export_motion
-from formulations.optima.free_form import FreeForm, free_form
+from formulations.optima.free_form import FreeForm, free_form, proved_motion
 from formulations.problem.conditions import Conditions
 from formulations.problem.errors import InputError
 from formulations.problem.problem import Problem
-from formulations.proofs.every_motion.bound import FreeFormBound, free_form_bound
+from formulations.proofs.every_motion.bound import FreeFormBound
 
 _PROOF, _EACH = 20.0, 0.1  # s for the bound, where the time limit leaves more; at least per segment
 
@@ -133,6 +133,9 @@ def plan(
 ) -> PlannedMotion:
     """Find the fastest motion through the waypoints, and prove how much faster one could be.
 
+    Where the bound leaves a larger gap than asked for, the search begins again from what the bound says of the
+    waypoints (``proved_motion``).
+
     Parameters
     ----------
     problem : Problem
@@ -192,11 +195,9 @@ def plan(
     proof = None
     if bound:
         say("how fast any motion could be")
-        proof = free_form_bound(
-            problem,
-            conditions=asked.without_total(problem),
+        found, proof = proved_motion(
+            found,
             gap=gap,
-            upper=None if found.trajectory is None else found.seconds,
             time_limit=deadline.within(max(_PROOF, _EACH * problem.n_segments)).left,
             stop=stop,
         )

@@ -16,7 +16,7 @@ from formulations.deadlines.deadline import Stop
 from formulations.families import FAMILIES
 from formulations.motion.verdict import TOLERANCE, check
 from formulations.optima.family.papers_rule import longest_segment
-from formulations.optima.free_form import free_form
+from formulations.optima.free_form import FreeForm, free_form, proved_motion
 from formulations.problem.errors import InputError
 from formulations.problem.problem import Problem
 from formulations.problem.size import require_moderate
@@ -164,15 +164,15 @@ def without(keys: Collection[str], left_out: Collection[str]) -> tuple[str, ...]
 def _free_form_lower(climb: Climb) -> Outcome:
     if not climb.problem.moving_joints and climb.problem.conditions.none:
         return Outcome.ok(0.0, note="nothing moves")
-    found = free_form_bound(
-        climb.problem,
-        conditions=climb.problem.conditions.without_total(climb.problem),
-        gap=climb.gap,
-        upper=climb.seconds("free_form"),
-        time_limit=climb.deadline.within(_TIME_LIMIT).left,
-        stop=climb.deadline.stop,
-        record=climb.certificate,
-    )
+    options = {"gap": climb.gap, **climb.proof(_TIME_LIMIT)}
+    if climb.free_form is None:
+        asked = climb.problem.conditions.without_total(climb.problem)
+        found = free_form_bound(climb.problem, conditions=asked, **options)
+    else:
+        upper = climb.seconds("free_form")
+        climb.free_form, found = proved_motion(climb.free_form, upper=upper, **options)
+        if upper is None or climb.free_form.seconds < upper:
+            climb.record(RUNGS["free_form"], _of_motion(climb.free_form), climb.free_form.runtime)
     climb.free_form_bound = found
     note = f"by {found.method}"
     if found.gap is not None:
@@ -197,7 +197,6 @@ def _free_form(climb: Climb) -> Outcome:
         stop=climb.deadline.stop,
     )
     climb.free_form = found
-    note = "; ".join([found.method, *found.notes, *([found.ending] * (found.status != "ok"))])
     # splines and stop-and-go are motions too; the fastest one of all is reported
     others = {key: climb.seconds(key) for key in ("family", "ruckig_stop_and_go")}
     for key, seconds in others.items():
@@ -208,6 +207,11 @@ def _free_form(climb: Climb) -> Outcome:
                 trajectory=climb.trajectories[key],
                 note=f"that of {key}; the program's takes {found.seconds:.9g} s",
             )
+    return _of_motion(found)
+
+
+def _of_motion(found: FreeForm) -> Outcome:
+    note = "; ".join([found.method, *found.notes, *([found.ending] * (found.status != "ok"))])
     return Outcome.ok(found.seconds, durations=found.durations, trajectory=found.trajectory, note=note)
 
 
@@ -236,12 +240,7 @@ def _family_lower(climb: Climb) -> Outcome:
         return Outcome.not_applicable("there is no family optimum to start from")
     gap, time_limit = affordable_gap(climb.problem.family)
     climb.bound = bound = climb.bound or family_bound(
-        climb.problem,
-        gap=gap,
-        time_limit=climb.deadline.within(time_limit).left,
-        stop=climb.deadline.stop,
-        optimum=climb.optimum,
-        record=climb.certificate,
+        climb.problem, gap=gap, optimum=climb.optimum, **climb.proof(time_limit)
     )
     whole = climb.seconds("free_form_lower") or 0.0
     refused = bound.status is BoundStatus.NOT_APPLICABLE

@@ -15,11 +15,10 @@ import numpy as np
 from formulations.costs.left_out import left_out
 from formulations.deadlines import NEVER, Deadline
 from formulations.dynamics import torque_peaks
-from formulations.optima.free_form import FreeForm, SearchStatus, free_form
+from formulations.optima.free_form import FreeForm, SearchStatus, free_form, proved_motion
 from formulations.problem.conditions import Conditions
 from formulations.problem.errors import InputError, NoFeasibleMotion, NotFoundInTime
 from formulations.problem.problem import Problem
-from formulations.proofs.every_motion.bound import FreeFormBound, free_form_bound
 
 _GAP, _PROOF = 1e-4, 20.0  # of each motion and its bound; s for one bound
 _LOCAL = 1e-3  # gap of motions under limits on tool or motors, whose search takes long
@@ -234,10 +233,9 @@ def solved(
         return None
     if bound is not None:
         return SolvedTask(motion.seconds, bound)
-    proof: FreeFormBound = free_form_bound(
-        problem,
+    motion, proof = proved_motion(
+        motion,
         gap=_GAP,
-        upper=None if motion.trajectory is None else motion.seconds,
         time_limit=deadline.within(_PROOF).left,
         stop=deadline.stop,
     )

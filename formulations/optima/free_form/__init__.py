@@ -1,6 +1,7 @@
 """The fastest motion through waypoints, of all with bounded velocity, acceleration and jerk.
 
 fastest           ``free_form``, which others call
+proved            its bound, and the search once more from there: ``proved_motion``
 answer            its answer
 ending            how the search ended
 stage             one step of the search
@@ -21,7 +22,8 @@ from __future__ import annotations
 from formulations.optima.free_form.answer import FreeForm
 from formulations.optima.free_form.ending import SearchStatus
 from formulations.optima.free_form.fastest import free_form
+from formulations.optima.free_form.proved import proved_motion
 from formulations.optima.free_form.sensitivity import Sensitivity
 from formulations.optima.free_form.stage import Stage
 
-__all__ = ["FreeForm", "SearchStatus", "Sensitivity", "Stage", "free_form"]
+__all__ = ["FreeForm", "SearchStatus", "Sensitivity", "Stage", "free_form", "proved_motion"]

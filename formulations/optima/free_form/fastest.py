@@ -67,7 +67,8 @@ def free_form(
     The returned motion is verified: an independent check, which computes exact extremes of all
     polynomials, confirms its waypoints, limits and conditions. So its time is an upper bound on the
     least time. It is the best local optimum found and no proof of optimality; ``free_form_bound`` proves
-    a lower bound for the same problem, often equal to six digits.
+    a lower bound for the same problem, often equal to six digits. Where there is a gap, ``proved_motion``
+    searches once more from the waypoint states of the relaxation behind the bound.
 
     With ``conditions.total`` the motion takes this time, and it is the smoothest one on even steps of
     constant jerk: it minimises the integral over time of the sum over joints of (jerk / limit)^2, or of
@@ -122,6 +123,7 @@ def free_form(
     See Also
     --------
     free_form_bound : a certified lower bound on the time of every motion.
+    proved_motion : both, and a faster motion where the bound shows the way.
     formulations.diagnosis.diagnose : which limits hold the motion up.
 
     Notes

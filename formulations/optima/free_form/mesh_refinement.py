@@ -3,8 +3,7 @@
 Each round solves the program on even steps, takes the waypoint states of its solution, computes the
 segment times between them (``retiming``), and solves the program on free arcs from there. Whatever a
 solver returns is assembled to a motion that passes the waypoints exactly, slowed down by the least factor
-that keeps its limits, and judged by the independent check. The first motion is stop and go, which needs
-no solver.
+that keeps its limits, and judged by the independent check. The first one is stop and go.
 """
 
 from __future__ import annotations
@@ -164,16 +163,16 @@ class MeshRefinement:
             self._states("stop and go, by Ruckig", start)
         arcs, before = mesh, np.inf
         for _ in range(ROUNDS):
-            self._round(start, arcs, tolerance)
+            self._round(start, arcs)
             now = np.inf if self.best is None else self.best.verdict.seconds
             if tolerance >= 1e-3 or before - now <= 0.1 * tolerance * now:
                 break
             arcs, before = (3 * arcs) // 2, now
         if self.task.hurried and not np.isfinite(self.converged):
-            self._round(begin, mesh, tolerance)
+            self._round(begin, mesh)
         if self.solved is None and self.solver == "ipopt" and self.task.stretchable:
             self._use("highs")
-            self._round(start, mesh, tolerance)
+            self._round(start, mesh)
         self._finish(tolerance)
 
     def run_timed(self, mesh: int) -> list[str]:
@@ -255,16 +254,19 @@ class MeshRefinement:
             if found is not None and inner.status(1e-3) is SearchStatus.OK:
                 self.converged = found.verdict.seconds
 
-    def _round(self, start: ArcMotion, arcs: int, tolerance: float) -> None:
+    def _round(self, start: ArcMotion, arcs: int) -> None:
         """One round: even steps, waypoint states, free arcs."""
-        # where times or end velocities are given, slowing down cannot correct a loose solution
-        digits = _LOOSE if self.task.stretchable else _TIGHT
         coarse = self._solved("even steps", start, arcs + arcs // 2, free=False, tolerance=1e-4)
-        states = self._states("waypoint states", coarse)
-        # where Ruckig refuses, or its motion is a bad start, the arcs start from the even steps
+        self._between_states(coarse, arcs)
+
+    def _between_states(self, start: ArcMotion, arcs: int, where: str = "") -> None:
+        """Waypoint states of a motion, and free arcs from there."""
+        digits = _LOOSE if self.task.stretchable else _TIGHT  # slowing down corrects loose solutions
+        states = self._states(f"waypoint states{where}", start)
+        # where Ruckig refuses, or its motion is a bad start, the arcs start from the motion itself
         starts = [] if isinstance(states, Refusal) else [(states, arcs)]
-        for first, n in [*starts, (coarse, arcs + arcs // 2)]:
-            self._solved("arcs", first, n, free=True, tolerance=digits)
+        for first, n in [*starts, (start, arcs + arcs // 2)]:
+            self._solved(f"arcs{where}", first, n, free=True, tolerance=digits)
             best = np.inf if self.best is None else self.best.verdict.seconds
             if not self.reason and self.stages[-1].seconds <= best * (1.0 + 1e-4):
                 break
@@ -311,8 +313,7 @@ class MeshRefinement:
                 break
             self.guarded |= leaving
             start = motion
-        if free:
-            self.last = motion
+        self.last = motion if free else self.last
         found = self.offer(name, motion, solution.status)
         if (free or smooth) and not elastic:
             self.reason = "" if solution.converged else solution.status

@@ -20,7 +20,10 @@ from formulations.problem.errors import InputError
 from formulations.problem.problem import Problem
 from formulations.problem.size import require_moderate
 from formulations.proofs.certificate import certificate_of
+from formulations.proofs.every_motion.attaining_motion.hunt import MotionHunt
+from formulations.proofs.every_motion.attaining_motion.relaxed_motion import SearchNear
 from formulations.proofs.every_motion.horizons import HorizonSearch
+from formulations.proofs.every_motion.recorded import proved_again
 from formulations.proofs.every_motion.zones import ZoneSearch
 from formulations.proofs.status import BoundStatus
 from formulations.proofs.tool.least_times import with_tool_times
@@ -112,6 +115,7 @@ def free_form_bound(
     stop: Stop | None = None,
     record: bool = False,
     progress: Callable[[float, float | None], None] | None = None,
+    near: SearchNear | None = None,
 ) -> FreeFormBound:
     """Prove a lower bound on the total time of all motions through the waypoints.
 
@@ -151,6 +155,9 @@ def free_form_bound(
         may prove slightly less.
     progress : callable, optional
         Called as ``progress(bound, upper)`` [s] whenever the bound may have grown.
+    near : callable, optional
+        Called with a point of the relaxation where narrower boxes do not reach the gap. It searches for motions
+        near that point, and returns the time of the fastest one that is verified [s]: ``proved_motion`` does.
 
     Returns
     -------
@@ -210,12 +217,14 @@ def free_form_bound(
     demands = with_tool_times(stated)
     deadline = Deadline(time_limit, stop)
     zones = (demands.waypoints[..., 0] < demands.waypoints[..., 1]).any()
-    search = (ZoneSearch if zones else HorizonSearch)(demands, upper, progress)
+    search = (ZoneSearch if zones else HorizonSearch)(
+        demands, MotionHunt(problem, upper, near), progress
+    )
     ending = search.run(gap, deadline)
     certificate = None
     if record and search.seconds > 0.0:
         left = max(2.0 * time_limit - (time.perf_counter() - started), 0.0)
-        seconds, horizon, events = search.certify(Deadline(left, stop))
+        seconds, horizon, events = proved_again(search, Deadline(left, stop))
         asked = None if search.plain else stated
         certificate = certificate_of(problem, seconds, events, horizon=horizon, demands=asked)
         if asked is not None:

@@ -9,7 +9,6 @@ then narrower and the relaxation is tighter. Where narrowing stalls near a known
 from __future__ import annotations
 
 from collections.abc import Callable
-from typing import Any, NamedTuple
 
 import numpy as np
 
@@ -18,13 +17,13 @@ from formulations.motion.trajectory import Trajectory
 from formulations.problem.arrays import Array
 from formulations.problem.demands import Demands
 from formulations.proofs.every_motion.attaining_motion.hunt import MotionHunt
+from formulations.proofs.every_motion.attaining_motion.relaxed_motion import RelaxedMotion
 from formulations.proofs.every_motion.beginnings import (
-    derived_boxes,
     first_bounds,
     first_boxes,
     tangents,
 )
-from formulations.proofs.every_motion.closed_forms import bound_at_top_speed
+from formulations.proofs.every_motion.ending import Ending, out_of_time, unsolved
 from formulations.proofs.every_motion.parts import PartedProof
 from formulations.proofs.every_motion.prices import price_limits
 from formulations.proofs.every_motion.relaxation.boxes import Boxes
@@ -40,22 +39,14 @@ from formulations.proofs.every_motion.relaxation.rows import Frame
 from formulations.proofs.every_motion.relaxation.tightening import FEW, MANY, tighten
 from formulations.proofs.status import BoundStatus
 
-_BEYOND = 1e-6  # the horizon is longer than the known motion by this, so that the motion is inside
+BEYOND = 1e-6  # the horizon is longer than the known motion by this, so that the motion is inside
 _FAR = 0.15  # of the bound: the known motion is no horizon while it is farther above
 _AHEAD = 0.1  # of the bound: how far above it the horizon is then
 ROUNDS = 100  # of cuts
-_NEAR = 1e-2  # of the bound: how far above it the horizon of its certificate is at most
 _FARTHEST = 1e3  # displacements at top speed: where the search ends if no motion is left
 _SHORTEST = 1e-6  # of the horizon: the least unit of a duration that may be 0
 _BELOW = 1.0 - 2.0**-50  # more than the rounding of one sum
 _STALLED = 0.05  # of the way to the horizon: a step that gains less is no progress
-
-
-class Ending(NamedTuple):
-    """A status and, where it needs one, its reason."""
-
-    status: BoundStatus
-    reason: str = ""
 
 
 class HorizonSearch:
@@ -78,7 +69,7 @@ class HorizonSearch:
     def __init__(
         self,
         demands: Demands,
-        upper: float | None,
+        hunt: MotionHunt,
         progress: Callable[[float, float | None], None] | None,
     ) -> None:
         """Compute the bounds in closed form.
@@ -86,18 +77,18 @@ class HorizonSearch:
         Parameters
         ----------
         demands : Demands
-        upper : float or None [s]
-            Time of a verified motion, if one is known.
+        hunt : MotionHunt
+            With what is known of the fastest motion.
         progress : callable or None
             Called as ``progress(bound, upper)`` whenever the relaxation proved a bound.
         """
         self.demands, self.progress = demands, progress
-        self.problem = problem = demands.problem
+        self.problem = demands.problem
         self.without = self.idle = idle_waypoints(demands)
         self.plain = demands.plain
         self.bounds, self.typical, self.slowest = first_bounds(demands)
         self.cuts = Cuts.none()
-        self.hunt = MotionHunt(problem, upper)
+        self.hunt = hunt
         self.durations: Array | None = None
         self.savings: Array | None = None
         self.rows = 0
@@ -180,7 +171,7 @@ class HorizonSearch:
         """
         ahead, boxes = np.inf, None
         while True:
-            horizon = self.known * (1.0 + _BEYOND)
+            horizon = self.known * (1.0 + BEYOND)
             if ahead < _AHEAD or horizon > self.seconds * (1.0 + _FAR):
                 horizon = min(horizon, self.seconds * (1.0 + ahead))
             ending, boxes = self._within(horizon, boxes, gap, deadline)
@@ -223,9 +214,9 @@ class HorizonSearch:
                 break
             self._keep(program, solution)
             if solution.status == LPStatus.TIME_LIMIT:
-                return _out_of_time(deadline), boxes
+                return out_of_time(deadline), boxes
             if solution.status != LPStatus.OPTIMAL:
-                return Ending(BoundStatus.SOLVER_FAILED, _why(solution)), boxes
+                return unsolved(solution), boxes
             typical = (solution.x[frame.T] * frame.typical)[: relaxed.n_segments]
             short = frame.short[: relaxed.n_segments]
             typical[short] = np.maximum(typical[short], _SHORTEST * horizon)
@@ -233,12 +224,13 @@ class HorizonSearch:
             if self.plain:
                 of_bound = {"bound": self.seconds, "gap": gap}
                 self.hunt.look(typical, program.cuts, **of_bound, deadline=deadline)
+            self._note(frame, solution, gap)
             if self.met(gap):
                 return Ending(BoundStatus.PROVED), boxes
             if self.hunt.attained <= self.seconds * (1.0 + gap):
                 return Ending(BoundStatus.TIGHT), boxes
             if deadline.over:
-                return _out_of_time(deadline), boxes
+                return out_of_time(deadline), boxes
             if self.seconds >= horizon:
                 break
             if horizon > self.seconds * (1.0 + _FAR):
@@ -250,13 +242,16 @@ class HorizonSearch:
             if slow or narrower.width > (1.0 - _STALLED) * boxes.width:
                 rounds = MANY
             boxes = narrower
-        self._improve(horizon)
+        self.improve(horizon)
         return (Ending(BoundStatus.PROVED) if self.met(gap) else None), boxes
 
     def _in_parts(
         self, relaxed: RelaxedProblem, horizon: float, boxes: Boxes, gap: float, deadline: Deadline
     ) -> Ending | None:
         """Split boxes that cannot be narrowed, where a motion says how much there is to gain."""
+        self.hunt.search_near()
+        if self.met(gap):
+            return Ending(BoundStatus.PROVED)
         if self.upper is None or not self.hunt.given:
             return None
         target = self.upper / (1.0 + gap)
@@ -267,50 +262,13 @@ class HorizonSearch:
             solution = program.solve(program.frame.cost, rounds=FEW, tolerance=1e-7, deadline=deadline)
             if solution.status == LPStatus.OPTIMAL:
                 self._describe(program, solution)
-        self._improve(proof.bound)
+                self._note(program.frame, solution, gap)
+        self.improve(proof.bound)
+        if not self.met(gap):
+            self.hunt.search_near()
         if self.met(gap):
             return Ending(BoundStatus.PROVED)
-        return _out_of_time(deadline) if deadline.over else None
-
-    def certify(self, deadline: Deadline) -> tuple[float, float, list[list[Any]]]:
-        """Prove a bound near the best one again, so that a checker can follow it.
-
-        Parameters
-        ----------
-        deadline : Deadline
-
-        Returns
-        -------
-        bound : float [s]
-        horizon : float [s]
-            Of the proof.
-        events : list
-            As ``events`` describes them; none where the displacement bound is the proof.
-        """
-        least = self.bounds["displacement"] * (1.0 - 1e-12)
-        horizon = min(self.known * (1.0 + _BEYOND), self.seconds * (1.0 + _NEAR))
-        relaxed = self.relaxed(horizon)
-        if not len(relaxed.joints) or not self.seconds > least * (1.0 + 1e-9):
-            return least, least, self._without_rows()
-        with np.errstate(over="ignore", divide="ignore", invalid="ignore"):
-            target = self.seconds * (1.0 - 1e-8)
-            proof = PartedProof(relaxed, horizon, target, self.typical, deadline, for_checker=True)
-            events = proof.prove(derived_boxes(relaxed), self.cuts)
-        bound = proof.bound
-        if not bound > least:
-            return least, least, self._without_rows()
-        self._improve(bound)  # a near horizon may prove more
-        return bound, horizon, events
-
-    def _without_rows(self) -> list[list[Any]]:
-        """Events that prove displacement at top speed: of a plain problem the checker does so by itself."""
-        if self.plain:
-            return []
-        self.without = frozenset()  # that bound counts all waypoints
-        relaxed = RelaxedProblem.under(self.demands, np.inf)
-        latest = bound_at_top_speed(relaxed)[1]
-        rows = [["b", int(relaxed.waypoints[latest]), (1.0).hex()]] if latest else []
-        return [["P"], ["F", rows]]
+        return out_of_time(deadline) if deadline.over else None
 
     def met(self, gap: float) -> bool:
         """Say whether the known motion is as near to the bound as is asked for.
@@ -326,7 +284,13 @@ class HorizonSearch:
         """
         return self.upper is not None and self.upper <= self.seconds * (1.0 + gap)
 
-    def _improve(self, bound: float) -> None:
+    def improve(self, bound: float) -> None:
+        """Keep a bound of the relaxation, if it is the best one.
+
+        Parameters
+        ----------
+        bound : float [s]
+        """
         self.bounds["relaxation"] = max(self.bounds.get("relaxation", 0.0), bound)
         if self.progress is not None:
             self.progress(self.seconds, self.upper)
@@ -340,7 +304,12 @@ class HorizonSearch:
             bound = (bound + relaxed.waits) * _BELOW
         if bound > self.bounds.get("relaxation", 0.0):
             self._describe(program, solution)
-        self._improve(bound)
+        self.improve(bound)
+
+    def _note(self, frame: Frame, solution: LPSolution, gap: float) -> None:
+        """Tell the hunt where the relaxation passes the waypoints, if no zone is left out that counts."""
+        if not self.met(gap) and self.without == self.idle:
+            self.hunt.point = RelaxedMotion.of(self.demands, frame, solution.x)
 
     def _describe(self, program: LinearProgram, solution: LPSolution) -> None:
         """Keep the durations and the savings of a solve."""
@@ -352,13 +321,3 @@ class HorizonSearch:
         self.savings[:, relaxed.segments[:, None], relaxed.joints] = price_limits(
             self.demands, program, solution
         )
-
-
-def _why(solution: LPSolution) -> str:
-    if solution.status == LPStatus.REFUSED or solution.reason == "Not Set":
-        return "the numbers are too far apart for HiGHS"
-    return f"HiGHS ended with {solution.reason.lower()}"
-
-
-def _out_of_time(deadline: Deadline) -> Ending:
-    return Ending(BoundStatus.INTERRUPTED if deadline.interrupted else BoundStatus.TIME_LIMIT)

@@ -140,11 +140,11 @@ def test_without_demands_there_are_no_rows() -> None:
 def test_a_bound_that_claims_too_much_is_seen(monkeypatch: pytest.MonkeyPatch) -> None:
     """A planted fault: bounds 10 % too high put the truth outside the interval."""
 
-    def too_high(*args: object, **options: object) -> object:
-        found = module_bound(*args, **options)
-        return replace(found, seconds=1.1 * found.seconds)
+    def too_high(*args: object, **options: object) -> tuple[object, object]:
+        motion, bound = as_it_is(*args, **options)
+        return motion, replace(bound, seconds=1.1 * bound.seconds)
 
-    module_bound = module.free_form_bound
-    monkeypatch.setattr(module, "free_form_bound", too_high)
+    as_it_is = module.proved_motion
+    monkeypatch.setattr(module, "proved_motion", too_high)
     cost = only(demand_costs(THERE_AND_BACK, Conditions(waits={1: 0.7})))
     assert not cost.least <= 0.7 <= cost.greatest

@@ -1,4 +1,8 @@
-"""The hunt for a motion that attains the bound of the relaxation: durations are tried, stretched a little."""
+"""The hunt for a motion that attains the bound of the relaxation.
+
+Of a plain problem durations are tried, stretched a little. A search from elsewhere begins at the relaxation's
+waypoint states where the motion known is not near enough.
+"""
 
 from __future__ import annotations
 
@@ -11,14 +15,16 @@ from formulations.problem.arrays import Array
 from formulations.problem.problem import Problem
 from formulations.proofs.every_motion.attaining_motion.durations import descend
 from formulations.proofs.every_motion.attaining_motion.motion import connect
+from formulations.proofs.every_motion.attaining_motion.relaxed_motion import RelaxedMotion, SearchNear
 from formulations.proofs.every_motion.attaining_motion.states import find_states
 from formulations.proofs.every_motion.relaxation.cuts import Cuts
 
 _STRETCHES = (2e-7, 1e-6, 1e-5, 1e-4, 1e-3, 1e-2)  # of durations, tried for a motion
+_SEARCHES = 4  # from elsewhere, at most
 
 
 class MotionHunt:
-    """The fastest motion known of a problem without conditions, and what was tried for it.
+    """The fastest motion known of a problem, and what was tried for it.
 
     Attributes
     ----------
@@ -30,9 +36,11 @@ class MotionHunt:
         Time of the fastest motion found that may leave the position limits.
     given : bool
         Whether a motion was known before.
+    point : RelaxedMotion or None
+        The last point of the relaxation, if no search has begun there.
     """
 
-    def __init__(self, problem: Problem, upper: float | None) -> None:
+    def __init__(self, problem: Problem, upper: float | None, near: SearchNear | None = None) -> None:
         """Begin with what is known.
 
         Parameters
@@ -40,12 +48,17 @@ class MotionHunt:
         problem : Problem
         upper : float or None [s]
             Time of a verified motion.
+        near : callable, optional
+            Searches for motions near a point of the relaxation, and returns the time of the fastest one that
+            is verified.
         """
         self.problem, self.upper = problem, upper
         self.motion: Trajectory | None = None
         self.attained = np.inf
         self.given = upper is not None
         self._looking = not self.given  # whether durations nearby are worth their time
+        self.point: RelaxedMotion | None = None
+        self._near, self._searches = near, 0
 
     def look(
         self, durations: Array, cuts: Cuts, *, bound: float, gap: float, deadline: Deadline
@@ -76,6 +89,19 @@ class MotionHunt:
                 if self._try(durations * (1.0 + stretch), cuts, deadline):
                     self._looking = False
                     return
+
+    def search_near(self) -> None:
+        """Search near the last point: narrower boxes prove no more, though they hold the motion known.
+
+        Mostly they do prove that this motion is near enough. So nothing is searched before.
+        """
+        point = self.point
+        if self._near is None or point is None or self._searches == _SEARCHES:
+            return
+        self.point, self._searches = None, self._searches + 1
+        seconds = self._near(point)
+        if seconds is not None and (self.upper is None or seconds < self.upper):
+            self.upper, self.motion = seconds, None
 
     def _try(self, durations: Array, cuts: Cuts, deadline: Deadline) -> bool:
         """Whether a longer stretch is pointless; a motion that passes the check and is fastest is kept."""
