@@ -53,6 +53,7 @@ from formulations.proofs.every_motion.relaxation.cuts import (
     Cuts,
     Kind,
 )
+from formulations.proofs.every_motion.relaxation.in_band import least_time
 from formulations.proofs.every_motion.relaxation.linear_program import LinearProgram, LPSolution
 from formulations.proofs.every_motion.relaxation.propagation import propagate
 from formulations.proofs.every_motion.relaxation.relaxed_problem import DOWN, UP, RelaxedProblem
@@ -108,7 +109,9 @@ def bound_with_events(
     for _ in range(_STEPS):
         frame = Frame(relaxed, boxes, units)
         program = LinearProgram(frame, cuts, for_checker=True)
-        solution = program.solve(frame.cost, rounds=_ROUNDS, tolerance=_TOLERANCE, deadline=deadline)
+        solution = least_time(
+            program, rounds=_ROUNDS, tolerance=_TOLERANCE, deadline=deadline, ceiling=horizon
+        )
         if solution.empty:
             return horizon, [*narrowing, ["E", _rows_of(program, solution.multipliers)]]
         bound = min(solution.bound + relaxed.waits, horizon) * (1.0 - _MARGIN)

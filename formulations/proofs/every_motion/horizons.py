@@ -9,7 +9,7 @@ then narrower and the relaxation is tighter.
 from __future__ import annotations
 
 from collections.abc import Callable
-from typing import Any, NamedTuple
+from typing import Any
 
 import numpy as np
 
@@ -20,10 +20,12 @@ from formulations.problem.demands import Demands
 from formulations.proofs.every_motion.attaining_motion.hunt import MotionHunt
 from formulations.proofs.every_motion.beginnings import first_bounds, first_boxes, tangents
 from formulations.proofs.every_motion.closed_forms import bound_at_top_speed
+from formulations.proofs.every_motion.endings import Ending, out_of_time, why
 from formulations.proofs.every_motion.events import bound_with_events
 from formulations.proofs.every_motion.prices import price_limits
 from formulations.proofs.every_motion.relaxation.boxes import Boxes
 from formulations.proofs.every_motion.relaxation.cuts import Cuts
+from formulations.proofs.every_motion.relaxation.in_band import least_time, long_chain
 from formulations.proofs.every_motion.relaxation.kept_waypoints import idle_waypoints
 from formulations.proofs.every_motion.relaxation.linear_program import (
     LinearProgram,
@@ -35,6 +37,7 @@ from formulations.proofs.every_motion.relaxation.rows import Frame
 from formulations.proofs.every_motion.relaxation.tightening import FEW, MANY, tighten
 from formulations.proofs.status import BoundStatus
 
+_ENOUGH = 0.9  # of the gap asked for: that of the horizon of a long chain
 _BEYOND = 1e-6  # the horizon is longer than the known motion by this, so that the motion is inside
 _FAR = 0.15  # of the bound: the known motion is no horizon while it is farther above
 _AHEAD = 0.1  # of the bound: how far above it the horizon is then
@@ -44,13 +47,6 @@ _FARTHEST = 1e3  # displacements at top speed: where the search ends if no motio
 _SHORTEST = 1e-6  # of the horizon: the least unit of a duration that may be 0
 _BELOW = 1.0 - 2.0**-50  # more than the rounding of one sum
 _STALLED = 0.05  # of the way to the horizon: a step that gains less is no progress
-
-
-class Ending(NamedTuple):
-    """A status and, where it needs one, its reason."""
-
-    status: BoundStatus
-    reason: str = ""
 
 
 class HorizonSearch:
@@ -96,6 +92,7 @@ class HorizonSearch:
         self.durations: Array | None = None
         self.savings: Array | None = None
         self.rows = 0
+        self.long = False
 
     @property
     def upper(self) -> float | None:
@@ -178,6 +175,7 @@ class HorizonSearch:
             horizon = self.known * (1.0 + _BEYOND)
             if ahead < _AHEAD or horizon > self.seconds * (1.0 + _FAR):
                 horizon = min(horizon, self.seconds * (1.0 + ahead))
+            horizon = min(horizon, self._aim(gap))
             ending, boxes = self._within(horizon, boxes, gap, deadline)
             if ending is not None:
                 return ending
@@ -185,6 +183,8 @@ class HorizonSearch:
                 return Ending(BoundStatus.SIMPLE, "nothing forces it to take time")
             if horizon > self.seconds * (1.0 + _FAR):
                 ahead = _AHEAD
+                continue
+            if horizon > self._aim(gap):
                 continue
             if self.seconds >= horizon:
                 boxes = None
@@ -200,6 +200,14 @@ class HorizonSearch:
             if ahead < gap:
                 return Ending(BoundStatus.TIGHT)
 
+    def _aim(self, gap: float) -> float:
+        """The bound that would do [s], as the horizon of a long chain, where each box has all the time left.
+
+        All segments together lose so much more than that time that no box becomes narrow if it is long.
+        Infinite where it is no long chain, or no motion is known.
+        """
+        return self.upper / (1.0 + _ENOUGH * gap) if self.long and self.upper else np.inf
+
     def _within(
         self, horizon: float, boxes: Boxes | None, gap: float, deadline: Deadline
     ) -> tuple[Ending | None, Boxes]:
@@ -212,15 +220,18 @@ class HorizonSearch:
         while not boxes.empty:
             frame = Frame(relaxed, boxes, typical)
             program = LinearProgram(frame, Cuts.joined([tangents(boxes.durations), self.cuts]))
-            solution = program.solve(frame.cost, rounds=ROUNDS, tolerance=tolerance, deadline=deadline)
+            solution = least_time(
+                program, rounds=ROUNDS, tolerance=tolerance, deadline=deadline, ceiling=horizon
+            )
+            self.long = long_chain(frame)
             before = self.seconds
             if solution.empty:
                 break
             self._keep(program, solution)
             if solution.status == LPStatus.TIME_LIMIT:
-                return _out_of_time(deadline), boxes
+                return out_of_time(deadline), boxes
             if solution.status != LPStatus.OPTIMAL:
-                return Ending(BoundStatus.SOLVER_FAILED, _why(solution)), boxes
+                return Ending(BoundStatus.SOLVER_FAILED, why(solution)), boxes
             typical = (solution.x[frame.T] * frame.typical)[: relaxed.n_segments]
             short = frame.short[: relaxed.n_segments]
             typical[short] = np.maximum(typical[short], _SHORTEST * horizon)
@@ -233,10 +244,10 @@ class HorizonSearch:
             if self.hunt.attained <= self.seconds * (1.0 + gap):
                 return Ending(BoundStatus.TIGHT), boxes
             if deadline.over:
-                return _out_of_time(deadline), boxes
+                return out_of_time(deadline), boxes
             if self.seconds >= horizon:
                 break
-            if horizon > self.seconds * (1.0 + _FAR):
+            if horizon > min(self.seconds * (1.0 + _FAR), self._aim(gap)):
                 return None, boxes
             if stalled and self.seconds - before < _STALLED * (horizon - before):
                 return None, boxes
@@ -263,7 +274,8 @@ class HorizonSearch:
             As ``events`` describes them; none where the displacement bound is the proof.
         """
         least = self.bounds["displacement"] * (1.0 - 1e-12)
-        horizon = min(self.known * (1.0 + _BEYOND), self.seconds * (1.0 + _NEAR))
+        near = self.seconds * (1.0 if self.long else 1.0 + _NEAR)
+        horizon = min(self.known * (1.0 + _BEYOND), near)
         relaxed = self.relaxed(horizon)
         if not len(relaxed.joints) or not self.seconds > least * (1.0 + 1e-9):
             return least, least, self._without_rows()
@@ -326,13 +338,3 @@ class HorizonSearch:
                 self.demands, program, solution
             )
         self._improve(bound)
-
-
-def _why(solution: LPSolution) -> str:
-    if solution.status == LPStatus.REFUSED or solution.reason == "Not Set":
-        return "the numbers are too far apart for HiGHS"
-    return f"HiGHS ended with {solution.reason.lower()}"
-
-
-def _out_of_time(deadline: Deadline) -> Ending:
-    return Ending(BoundStatus.INTERRUPTED if deadline.interrupted else BoundStatus.TIME_LIMIT)

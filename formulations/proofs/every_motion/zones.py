@@ -12,7 +12,8 @@ import numpy as np
 
 from formulations.deadlines import Deadline
 from formulations.proofs.every_motion.beginnings import first_boxes, tangents
-from formulations.proofs.every_motion.horizons import ROUNDS, Ending, HorizonSearch
+from formulations.proofs.every_motion.endings import Ending
+from formulations.proofs.every_motion.horizons import ROUNDS, HorizonSearch
 from formulations.proofs.every_motion.relaxation.cuts import Cuts
 from formulations.proofs.every_motion.relaxation.linear_program import LinearProgram
 from formulations.proofs.every_motion.relaxation.rows import Frame

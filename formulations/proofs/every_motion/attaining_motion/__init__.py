@@ -8,7 +8,6 @@ trust_region    how far a step goes
 cruising_start  a guess for dense paths, without stops
 smooth_timing   where dense paths begin
 reach_rows      what such a point violates, to first and second order
-interior_point  the quadratic program in a band
 motion      the motion between these states
 
 The bound does not depend on any of this: the motion is judged by the independent check.

@@ -27,12 +27,12 @@ from formulations.problem.arrays import Array
 from formulations.problem.problem import Problem
 from formulations.proofs.every_motion.attaining_motion.chain_columns import ChainColumns, stacked
 from formulations.proofs.every_motion.attaining_motion.cruising_start import cruising_point
-from formulations.proofs.every_motion.attaining_motion.interior_point import minimise_in_band
 from formulations.proofs.every_motion.attaining_motion.reach_rows import ChainPoint, ReachRows
 from formulations.proofs.every_motion.attaining_motion.smooth_timing import smoothly_timed
 from formulations.proofs.every_motion.attaining_motion.states import MARGIN, WaypointStates
 from formulations.proofs.every_motion.attaining_motion.trust_region import TrustRegion
 from formulations.proofs.every_motion.closed_forms import stop_and_go_durations
+from formulations.proofs.every_motion.interior_point import minimise_in_band
 from formulations.proofs.every_motion.relaxation.relaxed_problem import RelaxedProblem
 
 _STEPS = 60
