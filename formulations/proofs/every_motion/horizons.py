@@ -28,6 +28,7 @@ from formulations.proofs.every_motion.parts import PartedProof
 from formulations.proofs.every_motion.prices import price_limits
 from formulations.proofs.every_motion.relaxation.boxes import Boxes
 from formulations.proofs.every_motion.relaxation.cuts import Cuts
+from formulations.proofs.every_motion.relaxation.in_band import least_time, long_chain
 from formulations.proofs.every_motion.relaxation.kept_waypoints import idle_waypoints
 from formulations.proofs.every_motion.relaxation.linear_program import (
     LinearProgram,
@@ -39,6 +40,7 @@ from formulations.proofs.every_motion.relaxation.rows import Frame
 from formulations.proofs.every_motion.relaxation.tightening import FEW, MANY, tighten
 from formulations.proofs.status import BoundStatus
 
+_ENOUGH = 0.9  # of the gap asked for: that of the horizon of a long chain
 BEYOND = 1e-6  # the horizon is longer than the known motion by this, so that the motion is inside
 _FAR = 0.15  # of the bound: the known motion is no horizon while it is farther above
 _AHEAD = 0.1  # of the bound: how far above it the horizon is then
@@ -92,6 +94,7 @@ class HorizonSearch:
         self.durations: Array | None = None
         self.savings: Array | None = None
         self.rows = 0
+        self.long = False
 
     @property
     def upper(self) -> float | None:
@@ -174,6 +177,7 @@ class HorizonSearch:
             horizon = self.known * (1.0 + BEYOND)
             if ahead < _AHEAD or horizon > self.seconds * (1.0 + _FAR):
                 horizon = min(horizon, self.seconds * (1.0 + ahead))
+            horizon = min(horizon, self._aim(gap))
             ending, boxes = self._within(horizon, boxes, gap, deadline)
             if ending is not None:
                 return ending
@@ -181,6 +185,8 @@ class HorizonSearch:
                 return Ending(BoundStatus.SIMPLE, "nothing forces it to take time")
             if horizon > self.seconds * (1.0 + _FAR):
                 ahead = _AHEAD
+                continue
+            if horizon > self._aim(gap):
                 continue
             if self.seconds >= horizon:
                 boxes = None
@@ -196,6 +202,14 @@ class HorizonSearch:
             if ahead < gap:
                 return Ending(BoundStatus.TIGHT)
 
+    def _aim(self, gap: float) -> float:
+        """The bound that would do [s], as the horizon of a long chain, where each box has all the time left.
+
+        All segments together lose so much more than that time that no box becomes narrow if it is long.
+        Infinite where it is no long chain, or no motion is known.
+        """
+        return self.upper / (1.0 + _ENOUGH * gap) if self.long and self.upper else np.inf
+
     def _within(
         self, horizon: float, boxes: Boxes | None, gap: float, deadline: Deadline
     ) -> tuple[Ending | None, Boxes]:
@@ -208,7 +222,10 @@ class HorizonSearch:
         while not boxes.empty:
             frame = Frame(relaxed, boxes, typical)
             program = LinearProgram(frame, Cuts.joined([tangents(boxes.durations), self.cuts]))
-            solution = program.solve(frame.cost, rounds=ROUNDS, tolerance=tolerance, deadline=deadline)
+            solution = least_time(
+                program, rounds=ROUNDS, tolerance=tolerance, deadline=deadline, ceiling=horizon
+            )
+            self.long = long_chain(frame)
             before = self.seconds
             if solution.empty:
                 break
@@ -233,7 +250,7 @@ class HorizonSearch:
                 return out_of_time(deadline), boxes
             if self.seconds >= horizon:
                 break
-            if horizon > self.seconds * (1.0 + _FAR):
+            if horizon > min(self.seconds * (1.0 + _FAR), self._aim(gap)):
                 return None, boxes
             slow = self.seconds - before < _STALLED * (horizon - before)
             if slow and rounds == MANY:

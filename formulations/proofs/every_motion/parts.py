@@ -22,6 +22,7 @@ from formulations.problem.arrays import Array
 from formulations.proofs.every_motion.events import Event, EventLog, rows_of
 from formulations.proofs.every_motion.relaxation.boxes import Boxes
 from formulations.proofs.every_motion.relaxation.cuts import Cuts
+from formulations.proofs.every_motion.relaxation.in_band import least_time
 from formulations.proofs.every_motion.relaxation.linear_program import LinearProgram, LPSolution
 from formulations.proofs.every_motion.relaxation.propagation import propagate
 from formulations.proofs.every_motion.relaxation.relaxed_problem import DOWN, RelaxedProblem
@@ -190,8 +191,12 @@ class PartedProof:
                 part.log.without_time(self.relaxed, boxes)
                 return self._nothing_left(part, [])
             program = LinearProgram(self.frame(boxes), cuts, for_checker=self.for_checker)
-            solution = program.solve(
-                program.frame.cost, rounds=_ROUNDS, tolerance=_TOLERANCE, deadline=self.deadline
+            solution = least_time(
+                program,
+                rounds=_ROUNDS,
+                tolerance=_TOLERANCE,
+                deadline=self.deadline,
+                ceiling=self.relaxed.horizon,
             )
             if solution.empty:
                 return self._nothing_left(part, self._last("E", program, solution))

@@ -34,7 +34,8 @@ def proved_again(search: HorizonSearch, deadline: Deadline) -> tuple[float, floa
         As ``events`` describes them; none where the displacement bound is the proof.
     """
     least = search.bounds["displacement"] * (1.0 - 1e-12)
-    horizon = min(search.known * (1.0 + BEYOND), search.seconds * (1.0 + _NEAR))
+    near = search.seconds * (1.0 if search.long else 1.0 + _NEAR)
+    horizon = min(search.known * (1.0 + BEYOND), near)
     relaxed = search.relaxed(horizon)
     if not len(relaxed.joints) or not search.seconds > least * (1.0 + 1e-9):
         return least, least, _without_rows(search)

@@ -10,7 +10,6 @@ cruising_start  a guess for dense paths, without stops
 smooth_timing   where dense paths begin
 peaks           top speed while an acceleration at a waypoint fades
 reach_rows      what such a point violates, to first and second order
-interior_point  the quadratic program in a band
 motion      the motion between these states
 relaxed_motion  the relaxation's waypoint states, where searches from elsewhere begin
 hunt        what of it is tried while the bound is proved

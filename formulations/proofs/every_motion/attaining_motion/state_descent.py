@@ -26,11 +26,11 @@ from formulations.problem.arrays import Array
 from formulations.proofs.every_motion.attaining_motion.chain_columns import ChainColumns, stacked
 from formulations.proofs.every_motion.attaining_motion.chain_task import ChainTask
 from formulations.proofs.every_motion.attaining_motion.cruising_start import cruising_point
-from formulations.proofs.every_motion.attaining_motion.interior_point import minimise_in_band
 from formulations.proofs.every_motion.attaining_motion.peaks import PeakRows
 from formulations.proofs.every_motion.attaining_motion.reach_rows import ChainPoint, ReachRows
 from formulations.proofs.every_motion.attaining_motion.smooth_timing import smoothly_timed
 from formulations.proofs.every_motion.attaining_motion.trust_region import TrustRegion
+from formulations.proofs.every_motion.interior_point import minimise_in_band
 
 _STEPS = 60
 _PRICE, _DEAREST = 8.0, 1e3  # of missing one unit of a segment's rows, in mean durations

@@ -13,7 +13,9 @@ rows              the rows of ``reach`` in numbers: coefficients, right hand sid
 switches          the motions for which the inequalities are tight: where their jerk switches
 separation        the rows that cut a given point off
 linear_program    the linear program, solved by HiGHS with rows added as they are needed
+in_band           the least total time of a long chain, by an interior point method
 safe_dual         the safe dual bound: valid for any multipliers and all rounding
 propagation       narrower boxes of the accelerations in closed form
 tightening        narrower boxes, each bound certified in the same way
+windows           the same by small programs, of a few segments each
 """

@@ -42,6 +42,19 @@ class Rows:
         """Which rows consist of finite numbers, (m,)."""
         return np.asarray(np.isfinite(self.largest) & np.isfinite(self.upper))
 
+    def slacks(self, x: Array) -> Array:
+        """By how much a point keeps each row.
+
+        Parameters
+        ----------
+        x : Array, shape (size,)
+
+        Returns
+        -------
+        Array, shape (m,)
+        """
+        return np.asarray(self.upper - self.matrix @ x)
+
     @staticmethod
     def joined(blocks: list[Rows]) -> Rows:
         """Put several blocks below one another.

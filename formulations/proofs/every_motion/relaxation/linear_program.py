@@ -17,7 +17,7 @@ import highspy
 import numpy as np
 
 from formulations.deadlines import NEVER, Deadline
-from formulations.problem.arrays import Array
+from formulations.problem.arrays import Array, Truths
 from formulations.proofs.every_motion.relaxation.boxes import Boxes
 from formulations.proofs.every_motion.relaxation.cuts import Cuts
 from formulations.proofs.every_motion.relaxation.inequalities import Rows
@@ -149,19 +149,21 @@ class LinearProgram:
             self.rows = Rows.joined([self.rows, rows])
             self.cuts = Cuts.joined([self.cuts, cuts[kept]])
 
-    def renewed(self, boxes: Boxes) -> LinearProgram:
+    def renewed(self, boxes: Boxes, kept: Truths | slice = slice(None)) -> LinearProgram:
         """Pose the same program in other boxes.
 
         Parameters
         ----------
         boxes : Boxes
+        kept : Truths, shape (n_cuts,), optional
+            The cuts that it keeps.
 
         Returns
         -------
         LinearProgram
         """
         frame = Frame(self.frame.relaxed, boxes, self.frame.typical)
-        return LinearProgram(frame, self.cuts, for_checker=self._for_checker)
+        return LinearProgram(frame, self.cuts[kept], for_checker=self._for_checker)
 
     def _note(self, status: highspy.HighsStatus) -> None:
         """Remember a refusal: HiGHS then holds fewer rows than this object."""
@@ -190,17 +192,23 @@ class LinearProgram:
         columns = np.arange(len(box), dtype=np.int32)
         self._note(self.highs.changeColsBounds(len(box), columns, box[:, 0].copy(), box[:, 1].copy()))
 
-    def _thin_out(self) -> None:
-        """Drop the cuts that do not touch the last point, when there are many."""
-        if len(self.rows) < _CROWD * self.frame.size:
-            return
-        x = np.array(self.highs.getSolution().col_value)
-        far = self.rows.upper - self.rows.matrix @ x > _FAR
-        far[: self.n_fixed] = False
-        gone = np.flatnonzero(far).astype(np.int32)
+    @property
+    def crowded(self) -> bool:
+        """Whether some rows should go."""
+        return len(self.rows) > _CROWD * self.frame.size
+
+    def drop(self, cuts: Truths) -> None:
+        """Drop rows.
+
+        Parameters
+        ----------
+        cuts : Truths, shape (n_cuts,)
+            Which.
+        """
+        gone = (self.n_fixed + np.flatnonzero(cuts)).astype(np.int32)
         self.highs.deleteRows(len(gone), gone)
-        self.rows = self.rows[~far]
-        self.cuts = self.cuts[~far[self.n_fixed :]]
+        self.rows = self.rows[np.concatenate([np.ones(self.n_fixed, dtype=bool), ~cuts])]
+        self.cuts = self.cuts[~cuts]
 
     def solve(
         self, cost: Array, *, rounds: int, tolerance: float, deadline: Deadline = NEVER
@@ -231,7 +239,8 @@ class LinearProgram:
             converged = not len(cuts)
             if converged or turn == rounds - 1:
                 break
-            self._thin_out()
+            if self.crowded:
+                self.drop(self.rows.slacks(x)[self.n_fixed :] > _FAR)
             self.add(cuts)
         found = self._solution(cost, converged)
         if found.status == LPStatus.TIME_LIMIT and proved is not None and not self._for_checker:
@@ -308,7 +317,7 @@ class LinearProgram:
         y[: len(multipliers)] = multipliers
         y = self._kept(y)
         bound = self._bound(cost, y)
-        return LPSolution(LPStatus.OPTIMAL, "in a window", x, y, bound, False, False)
+        return LPSolution(LPStatus.OPTIMAL, "from elsewhere", x, y, bound, False, False)
 
     def _kept(self, y: Array) -> Array:
         """The multipliers that a proof keeps."""

@@ -18,7 +18,7 @@ from typing import Protocol
 import numpy as np
 
 from formulations.deadlines import Deadline
-from formulations.problem.arrays import Array
+from formulations.problem.arrays import Array, Truths
 from formulations.proofs.every_motion.relaxation.boxes import Boxes, joined_ends
 from formulations.proofs.every_motion.relaxation.cuts import (
     PRODUCTS,
@@ -28,14 +28,16 @@ from formulations.proofs.every_motion.relaxation.cuts import (
     Cuts,
     Kind,
 )
+from formulations.proofs.every_motion.relaxation.in_band import least_time, long_chain
 from formulations.proofs.every_motion.relaxation.linear_program import LinearProgram, LPSolution
 from formulations.proofs.every_motion.relaxation.propagation import propagate
 from formulations.proofs.every_motion.relaxation.relaxed_problem import UP
 from formulations.proofs.every_motion.relaxation.rows import Frame
-from formulations.proofs.every_motion.relaxation.windows import HALF, Window, solve_in_windows, suits
+from formulations.proofs.every_motion.relaxation.windows import HALF, Window, solve_in_windows
 
 FEW, MANY = 3, 15  # rounds of cuts for one bound: to begin with, and where few gain nothing
 _TOLERANCE = 1e-6
+_RENEWED = 2  # of cuts for the total time, whenever boxes were narrowed in windows
 _AT_WAYPOINTS = ("accelerations", "offsets", "velocities")
 
 
@@ -77,7 +79,7 @@ def tighten(
     cuts : Cuts
         Of the last program.
     """
-    if suits(program.frame):
+    if long_chain(program.frame):
         return _tighten_in_windows(program, solution, deadline, record, rounds)
     wanted = [("durations", k, 0) for k in _durations_of(program, solution)]
     for name, kinds in (
@@ -124,9 +126,11 @@ def _tighten_in_windows(
     rounds: int,
 ) -> tuple[Boxes, Cuts]:
     """Narrow the boxes in the middle of windows that do not overlap, then those of the next ones."""
+    used = np.zeros(0, dtype=bool)
     for first in range(2 * HALF + 1):
         frame, boxes = program.frame, program.frame.boxes
-        accelerations = set(_with_multiplier(program, solution, PRODUCTS))
+        used = _either(used, solution.multipliers > 0.0)
+        accelerations = set(_with_multiplier(program, solution, PRODUCTS)) if rounds > FEW else set()
         middles = range(first, frame.K, 2 * HALF + 1)
         windows = {k: Window(program, solution.multipliers, k) for k in middles}
         narrowed = {key: getattr(boxes, key).copy() for key in ("durations", *_AT_WAYPOINTS)}
@@ -140,17 +144,36 @@ def _tighten_in_windows(
                 for k, (column, unit), found in zip(here, places, answers, strict=True):
                     if found is None:
                         continue
+                    used = _either(used, found.multipliers > 0.0)
                     if record is not None:
                         record.narrowed(program, column, side, found)
                     _narrow(_interval(narrowed, name, k, j), side, found.bound * unit)
         boxes = _with_what_follows(frame, narrowed, record)
         if boxes.empty:
             return boxes, program.cuts
-        program = program.renewed(boxes)
+        used = _either(used, np.zeros(len(program.rows), dtype=bool))
+        program = program.renewed(boxes, used[program.n_fixed :])
+        used = np.concatenate(
+            [used[: program.n_fixed], used[program.n_fixed :][used[program.n_fixed :]]]
+        )
         if deadline.over:
             break
-        solution = program.solve(frame.cost, rounds=rounds, tolerance=_TOLERANCE, deadline=deadline)
+        solution = least_time(
+            program,
+            rounds=_RENEWED,
+            tolerance=_TOLERANCE,
+            deadline=deadline,
+            ceiling=frame.relaxed.horizon,
+        )
     return program.frame.boxes, program.cuts
+
+
+def _either(one: Truths, other: Truths) -> Truths:
+    """Either of two, the shorter of which goes on with False."""
+    found = np.zeros(max(len(one), len(other)), dtype=bool)
+    found[: len(one)] = one
+    found[: len(other)] |= other
+    return found
 
 
 def _interval(arrays: dict[str, Array], name: str, k: int, j: int) -> Array:

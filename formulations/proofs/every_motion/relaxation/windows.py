@@ -24,31 +24,14 @@ from formulations.proofs.every_motion.relaxation.linear_program import (
     LinearProgram,
     LPSolution,
 )
-from formulations.proofs.every_motion.relaxation.rows import Frame
 from formulations.proofs.every_motion.relaxation.separation import separate
 
 HALF = 2  # segments to either side of the one in the middle
 _ITERATIONS = 1500  # of the simplex method, which may cycle: such a box stays as it is
+# Devex prices on numbers as they are: 20 % faster than the defaults, by measurement
+_QUICK = {"simplex_dual_edge_weight_strategy": 1, "simplex_scale_strategy": 0}
 _TOLERANCE = 1e-6
 _SMALL = 1e-9  # coefficients that the window's row leaves out
-
-
-def suits(frame: Frame) -> bool:
-    """Say whether windows are used.
-
-    Parameters
-    ----------
-    frame : Frame
-
-    Returns
-    -------
-    bool
-        Not under zones nor on a cycle, nor where a window is most of the motion, a segment may take no
-        time, or legs over several segments have rows.
-    """
-    relaxed = frame.relaxed
-    other = relaxed.cyclic or frame.L > frame.K or frame.short.any() or (relaxed.zones > 0.0).any()
-    return frame.K > 4 * HALF and not bool(other)
 
 
 class Window:
@@ -79,6 +62,8 @@ class Window:
         for option, value in OPTIONS.items():
             self.highs.setOptionValue(option, value)
         self.highs.setOptionValue("simplex_iteration_limit", _ITERATIONS)
+        for option, value in _QUICK.items():
+            self.highs.setOptionValue(option, value)
         low, high = frame.box[self.columns].T
         self.highs.addVars(len(self.columns), low.copy(), high.copy())
         self._add_what_is_outside(prices)

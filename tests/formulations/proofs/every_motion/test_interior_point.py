@@ -6,7 +6,7 @@ from scipy.optimize import linprog
 from scipy.sparse import csr_array, diags_array
 
 from formulations.deadlines import Deadline
-from formulations.proofs.every_motion.attaining_motion.interior_point import minimise_in_band
+from formulations.proofs.every_motion.interior_point import minimise_in_band
 
 
 def banded_program(seed, n=40):

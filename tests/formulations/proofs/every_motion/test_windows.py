@@ -8,7 +8,7 @@ from formulations import Limits, Problem, free_form, free_form_bound
 from formulations.deadlines import NEVER
 from formulations.problem.demands import Demands
 from formulations.proofs.every_motion.beginnings import first_boxes, tangents
-from formulations.proofs.every_motion.relaxation import tightening, windows
+from formulations.proofs.every_motion.relaxation import windows
 from formulations.proofs.every_motion.relaxation.linear_program import LinearProgram
 from formulations.proofs.every_motion.relaxation.relaxed_problem import RelaxedProblem
 from formulations.proofs.every_motion.relaxation.rows import Frame
@@ -52,14 +52,3 @@ def test_the_certificate_of_a_bound_by_windows_is_proved_again(monkeypatch, seed
     assert len(used) > 100
     assert bound.seconds <= upper <= bound.seconds * (1.0 + 1e-4)
     verify(bound.certificate)
-
-
-def test_no_windows_under_zones_nor_on_few_segments():
-    problem = walk(0)
-    short = Problem(problem.waypoints[:6], problem.limits)
-    for one, wanted in ((problem, True), (short, False)):
-        relaxed = RelaxedProblem.of(one, 10.0)
-        K = len(relaxed.least)
-        frame = Frame(relaxed, first_boxes(Demands.of(one), relaxed, None), np.full(K, 10.0 / K))
-        assert windows.suits(frame) is wanted
-        assert tightening.suits is windows.suits
