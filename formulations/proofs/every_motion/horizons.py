@@ -223,13 +223,15 @@ class HorizonSearch:
             frame = Frame(relaxed, boxes, typical)
             program = LinearProgram(frame, Cuts.joined([tangents(boxes.durations), self.cuts]))
             solution = least_time(
-                program, rounds=ROUNDS, tolerance=tolerance, deadline=deadline, ceiling=horizon
+                program, rounds=ROUNDS, tolerance=tolerance, deadline=deadline, ceiling=relaxed.horizon
             )
             self.long = long_chain(frame)
             before = self.seconds
             if solution.empty:
                 break
             self._keep(program, solution)
+            if self.met(gap):
+                return Ending(BoundStatus.PROVED), boxes
             if solution.status == LPStatus.TIME_LIMIT:
                 return out_of_time(deadline), boxes
             if solution.status != LPStatus.OPTIMAL:
@@ -269,7 +271,7 @@ class HorizonSearch:
         self.hunt.search_near()
         if self.met(gap):
             return Ending(BoundStatus.PROVED)
-        if self.upper is None or not self.hunt.given:
+        if self.upper is None or not self.hunt.given or self.long:
             return None
         target = self.upper / (1.0 + gap)
         proof = PartedProof(relaxed, horizon, target, self.typical, deadline, for_checker=False)

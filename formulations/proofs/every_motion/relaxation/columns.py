@@ -8,6 +8,7 @@ import numpy as np
 
 from formulations.problem.arrays import Array, Truths
 from formulations.proofs.every_motion.relaxation.boxes import Boxes
+from formulations.proofs.every_motion.relaxation.legs import LONG
 from formulations.proofs.every_motion.relaxation.relaxed_problem import DOWN, UP, RelaxedProblem
 
 _LEAST_UNIT = 1e-6  # of a short duration, in those of the longest
@@ -190,7 +191,9 @@ def _product(low: Array, high: Array, least: Array, greatest: Array) -> Array:
 def _forms(relaxed: RelaxedProblem, durations: Array) -> tuple[Truths, Truths]:
     """Which legs have rows times T, and which have rows in 1 / T."""
     low, high = durations.T
-    if relaxed.plain:
+    # of many segments the first boxes are wide because of their number, and soon narrower
+    many = relaxed.n_segments > LONG and bool((low > 0.0).all())
+    if relaxed.plain or many:
         return low <= 0.0 * high, low > 0.0
     # where both states are given, times T nothing is lost, wherever the joint is in a zone
     still = np.asarray((relaxed.v_boxes[..., 0] == relaxed.v_boxes[..., 1]).all(axis=1))

@@ -44,12 +44,10 @@ def long_chain(frame: Frame) -> bool:
     Returns
     -------
     bool
-        Not under zones nor on a cycle, nor where a segment may take no time, or legs over several segments
-        or bounds on passage times have rows.
+        Not on a cycle, nor where a segment may take no time, or legs over several segments have rows.
     """
-    relaxed = frame.relaxed
-    other = relaxed.cyclic or frame.L > frame.K or frame.short.any() or (relaxed.zones > 0.0).any()
-    return frame.K > _FEW and not bool(other)
+    other = frame.relaxed.cyclic or frame.L > frame.K or bool(frame.short.any())
+    return frame.K > _FEW and not other
 
 
 def least_time(
@@ -123,6 +121,9 @@ def _along_the_motion(frame: Frame) -> Indices:
     place[frame.T] = place[frame.inverse] = place[frame.square] = k + 0.5
     place[frame.W] = k[:, None, None] + 0.5
     place[frame.v] = place[frame.a] = i
+    there, at_ends = frame.e >= 0, frame.p >= 0
+    place[frame.e[there]] = np.broadcast_to(i, frame.e.shape)[there]
+    place[frame.p[at_ends]] = np.broadcast_to(k[:, None, None] + 0.5, frame.p.shape)[at_ends]
     order = np.argsort(place, kind="stable")
     return order[frame.box[order, 0] < frame.box[order, 1]]
 

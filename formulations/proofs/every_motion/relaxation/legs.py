@@ -12,12 +12,16 @@ import numpy as np
 
 from formulations.problem.arrays import Array, Indices
 from formulations.problem.demands import Demands
+from formulations.proofs.every_motion.relaxation.kept_waypoints import gaps
 
 _OVER, _MOST = 4, 100  # segments in a leg, and legs over several, at most
+LONG = 30  # segments: above, legs over several are posed only where a segment may take no time
 
 
 def legs_between(demands: Demands, kept: Indices) -> Indices:
     """List the legs: all segments, and legs over zones without a wait, short ones first.
+
+    Many segments are bounded in time proportional to their number where no row goes beyond one of them.
 
     Parameters
     ----------
@@ -35,12 +39,13 @@ def legs_between(demands: Demands, kept: Indices) -> Indices:
     if demands.plain:
         return legs
     box = demands.waypoints[kept]
+    meets = (gaps(box, legs) <= 0.0).all(axis=(1, 2))
     zone = (box[..., 0] < box[..., 1]).any(axis=1) & (demands.waits[kept] == 0.0)
     over = [
         (i, i + many)
         for many in range(2, _OVER + 1)
         for i in range(len(kept) - many)
-        if zone[i + 1 : i + many].all()
+        if zone[i + 1 : i + many].all() and (len(legs) <= LONG or meets[i : i + many].any())
     ]
     return np.concatenate([legs, np.array(over[:_MOST], dtype=np.intp).reshape(-1, 2)])
 
