@@ -258,7 +258,7 @@ class HorizonSearch:
             if slow and rounds == MANY:
                 return self._in_parts(relaxed, horizon, boxes, gap, deadline), boxes
             narrower, self.cuts = tighten(program, solution, deadline, rounds=rounds)
-            if slow or narrower.width > (1.0 - _STALLED) * boxes.width:
+            if (slow and not self.long) or narrower.width > (1.0 - _STALLED) * boxes.width:
                 rounds = MANY
             boxes = narrower
         self.improve(horizon)
