@@ -31,6 +31,7 @@ _INSIDE, _CENTRED = (
     0.1,
     100.0,
 )  # where a start is given: its least share of a box's width, and the products
+_LESS, _PATIENCE, _NEAR = 0.9, 20, 1e-3  # rounding has ended the progress: what is left does not fall
 _ROWS_MET = 1e-9  # a row may be violated by this much
 
 
@@ -141,7 +142,7 @@ def minimise_in_band(
     s = np.maximum(upper - matrix @ x, _START)
     y, z_low, z_high = product / s, product / (x - low), product / (high - x)
     size = len(upper) + 2 * len(cost)
-    converged = False
+    converged, least, stuck = False, np.inf, 0
 
     def lengths(values: tuple[Array, ...], steps: tuple[Array, ...]) -> float:
         most = max(float((-d / v).max()) for d, v in zip(steps, values, strict=True))
@@ -158,7 +159,10 @@ def minimise_in_band(
         converged &= bool(
             np.abs(r_slope).max() < max(1e-8, 10.0 * tolerance) * (1.0 + np.abs(cost).max())
         )
-        if converged or deadline.over:
+        left = mu * size + float(np.abs(r_slope).max())
+        stuck = 0 if left < _LESS * least else stuck + bool(np.abs(r_rows).max() < _NEAR)
+        least = min(least, left)
+        if converged or stuck == _PATIENCE or deadline.over:
             break
         factor = normal.factor(y / s, z_low / under + z_high / over)
         if factor is None:
