@@ -27,6 +27,11 @@ _ITERATIONS = 100
 _TO_BOUNDARY = 0.995  # share of the way to the nearest bound that a step goes
 _TINY = 1e-15  # slacks and multipliers stay above it
 _START = 0.1  # of slacks and of complementarity products
+_INSIDE, _CENTRED = (
+    0.1,
+    100.0,
+)  # where a start is given: its least share of a box's width, and the products
+_LESS, _PATIENCE, _NEAR = 0.9, 20, 1e-3  # rounding has ended the progress: what is left does not fall
 _ROWS_MET = 1e-9  # a row may be violated by this much
 
 
@@ -100,6 +105,7 @@ def minimise_in_band(
     quadratic: csr_array | None = None,
     *,
     tolerance: float,
+    start: Array | None = None,
     deadline: Deadline = NEVER,
 ) -> BandedSolution:
     """Solve the program.
@@ -111,11 +117,13 @@ def minimise_in_band(
         G; every row has an entry.
     upper : Array, shape (m,)
     box : Array, shape (n, 2)
-        Finite, with an inside. The start is its middle.
+        Finite, with an inside.
     quadratic : csr_array, shape (n, n), optional
         Q, positive semidefinite.
     tolerance : float
         The solve ends when the complementarity products sum to less than this share of the cost.
+    start : Array, shape (n,), optional
+        Where to begin, moved inside the box; the middle of the box if left out. Most rows should hold there.
     deadline : Deadline
         Looked at in each iteration.
 
@@ -127,11 +135,14 @@ def minimise_in_band(
     turned = csr_array(matrix.T)
     normal = _NormalEquations(matrix, quadratic)
     low, high = box.T
-    x = 0.5 * (low + high)
+    x, product = 0.5 * (low + high), _START
+    if start is not None:
+        edge, product = _INSIDE * (high - low), _CENTRED
+        x = np.clip(start, low + edge, high - edge)
     s = np.maximum(upper - matrix @ x, _START)
-    y, z_low, z_high = _START / s, _START / (x - low), _START / (high - x)
+    y, z_low, z_high = product / s, product / (x - low), product / (high - x)
     size = len(upper) + 2 * len(cost)
-    converged = False
+    converged, least, stuck = False, np.inf, 0
 
     def lengths(values: tuple[Array, ...], steps: tuple[Array, ...]) -> float:
         most = max(float((-d / v).max()) for d, v in zip(steps, values, strict=True))
@@ -148,7 +159,10 @@ def minimise_in_band(
         converged &= bool(
             np.abs(r_slope).max() < max(1e-8, 10.0 * tolerance) * (1.0 + np.abs(cost).max())
         )
-        if converged or deadline.over:
+        left = mu * size + float(np.abs(r_slope).max())
+        stuck = 0 if left < _LESS * least else stuck + bool(np.abs(r_rows).max() < _NEAR)
+        least = min(least, left)
+        if converged or stuck == _PATIENCE or deadline.over:
             break
         factor = normal.factor(y / s, z_low / under + z_high / over)
         if factor is None:

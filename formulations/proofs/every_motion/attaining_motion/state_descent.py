@@ -34,6 +34,7 @@ from formulations.proofs.every_motion.interior_point import minimise_in_band
 
 _STEPS = 60
 _PRICE, _DEAREST = 8.0, 1e3  # of missing one unit of a segment's rows, in mean durations
+_ABOVE = 0.1  # units missed besides, so that a solve begins inside all rows
 _ROUGH = 3  # steps without curvature, solved loosely
 _FAR = 1.0  # rows with more slack cannot be met within a step that is worth it
 _FAR_BACK = 0.5  # rows of the steps before, in their units
@@ -47,12 +48,10 @@ _DENSE = 0.1  # of top speed: what full acceleration gains in one segment of a d
 _MOST_MISSED = 2.0  # units that a step may miss there
 _ALLOWED, _STRICTER = 1.0, 0.8  # of that what no radius shrinks for, and how it falls from step to step
 _SHARES = (1.0, 0.5, 0.25, 0.1, 0.03)  # of a step that are tried there
-_LONGER = (3e-2, 1e-2, 3e-3, 1e-3)  # of durations that are held, tried in turn until one fails
-_CUTS, _NARROW = (
-    6,
-    0.3,
-)  # rounds of rows there, and the share of that by which a point may be slowed down
-_NEARLY = 0.03  # units that most rows miss less than, where it is worth it
+_LONGER = (1e-2, 3e-3, 1e-3, 3e-4)  # of durations that are held, tried in turn until one fails
+_CUTS = 6  # rounds of rows there
+_NARROW = 0.3  # share of that by which a point may be slowed down
+_NEARLY = 0.01  # units that most rows miss less than, where it is worth it
 _OFTEN = 4  # steps from one time to the next
 _FAILURES = 8  # steps in a row whose programs rounding leaves unsolved, after which there is no use
 
@@ -156,7 +155,7 @@ class ChainDescent:
                 progress(self.seconds)
             self._ending |= change < _NEAR_END
             ahead = self.seconds / float(self.point.T.sum()) - 1.0
-            if change < 0.1 * tolerance and 0.0 <= ahead < tolerance:
+            if change < 0.1 * tolerance and abs(ahead) < tolerance:
                 self.converged = True
                 return
 
@@ -265,6 +264,9 @@ class ChainDescent:
         mean = float(point.T.mean())
         cost[columns.T], cost[columns.missed] = point.T / mean, self._price
         free = columns.free
+        start = np.zeros(columns.size)  # no step, and what is missing then
+        np.maximum.at(start, columns.missed[self.rows.segment[row]], -slack[near] / unit)
+        start[columns.missed] += _ABOVE
         found = minimise_in_band(
             cost[free],
             matrix[:, free],
@@ -272,6 +274,7 @@ class ChainDescent:
             box[free],
             None if quadratic is None else quadratic[free][:, free],
             tolerance=tolerance,
+            start=start[free] if self.dense else None,
             deadline=deadline,
         )
         x = np.zeros(columns.size)

@@ -25,12 +25,14 @@ from formulations.proofs.every_motion.relaxation.rows import Frame
 from formulations.proofs.every_motion.relaxation.separation import separate
 
 _LOOSE, _TIGHT = 1e-4, 1e-8  # of the solves between two rounds of cuts, and of the last one
+_FAILURES = 3  # solves in a row that rounding or the deadline ended
 _FEW = 8  # segments of a chain that is not long
 _SHARE = 0.03  # of the way to the ceiling
+_FIRST = 8  # rounds in any case
 _LAG, _LITTLE = 2, 0.1  # rounds, and the least share of the way to the ceiling that they have to gain
 _FAR = 1e3  # multipliers: rows with more slack are dropped where there are many
 _ACTIVE = (1.0, 1e-2, 1e-4, 0.0)  # slacks, tried in turn: rows with smaller multipliers are left out
-_LOST = 1e-3  # of the way to the ceiling: what rows that are left out may cost besides
+_LOST = 1e-2  # of the way to the ceiling: what rows that are left out may cost besides
 _TRUSTED = 1e-7  # of the optimum: the greatest difference between point and multipliers
 
 
@@ -90,14 +92,16 @@ def _solve_in_band(
     frame = program.frame
     columns = _along_the_motion(frame)
     values: list[float] = []
+    failures = 0
     last, accuracy = rounds == 1, _LOOSE
     while True:
         x, y, converged = _solved(program, columns, _TIGHT if last else accuracy, deadline)
         values.append(float(frame.cost @ x))
-        if last or not converged:
+        failures = 0 if converged else failures + 1
+        if last or failures == _FAILURES:
             break
         accuracy = float(np.clip(_SHARE * (ceiling / values[-1] - 1.0), _TIGHT, _LOOSE))
-        stalled = len(values) > _LAG and np.isfinite(ceiling)
+        stalled = len(values) >= _FIRST and np.isfinite(ceiling)
         stalled = stalled and values[-1] - values[-1 - _LAG] < _LITTLE * (ceiling - values[-1])
         cuts = separate(frame, x, tolerance)
         last = stalled or not len(cuts) or len(values) >= rounds - 1 or values[-1] > ceiling

@@ -46,6 +46,16 @@ def test_a_quadratic_program_meets_its_optimality_conditions(seed):
     assert np.abs(y * (upper - rows @ x)).max() < 1e-6
 
 
+@pytest.mark.parametrize("seed", range(4))
+@pytest.mark.parametrize("where", [0.0, 0.7, 5.0])
+def test_the_optimum_does_not_depend_on_the_start(seed, where):
+    cost, rows, upper, box = banded_program(seed)
+    start = np.full(len(cost), where)  # also on or beyond the boxes' ends
+    found = minimise_in_band(cost, csr_array(rows), upper, box, tolerance=1e-10, start=start)
+    assert found.converged
+    assert cost @ found.x == pytest.approx(linprog(cost, rows, upper, bounds=box).fun, abs=1e-7)
+
+
 def test_the_deadline_ends_the_solve():
     cost, rows, upper, box = banded_program(0)
     found = minimise_in_band(
