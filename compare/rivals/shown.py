@@ -1,4 +1,4 @@
-"""Rows of rivals as tables in the terminal and in documents, and as a page."""
+"""Rows of rivals as cells of tables in documents, and as a page."""
 
 from __future__ import annotations
 
@@ -9,7 +9,6 @@ from typing import Any
 from compare.report.frame import CHARTS, environment
 from compare.rivals import RIVALS
 from compare.rivals.rows import KEEPS, OURS, RivalRow, limit_factor
-from compare.screen import table
 
 HEADER = (
     "task", "program", "verdict", "time [s]", "over fastest", "over bound", "slowed down [s]", "worst limit",
@@ -21,6 +20,8 @@ SUMMARY = (
     "slowed down: mends", "slowed down: median", "slowed down: largest", "worst limit", "work: median [s]",
 )  # fmt: skip
 SUMMARY_RIGHT = tuple(range(1, 12))
+EXACTLY = "passes the points exactly"
+"""What is noted of a motion in a task with zones, where the program knows none."""
 
 
 def name_of(key: str) -> str:
@@ -49,24 +50,38 @@ def cells(row: RivalRow) -> list[str]:
     -------
     list of str
     """
-    why = [row.faults] if row.faults else []
-    if row.own_bound is not None and row.rival != OURS:
-        why.append(f"own bound {row.own_bound:.6g} s")
-    why += [row.reason] if row.reason else []
     return [
         row.problem,
         name_of(row.rival),
         row.status,
-        _number(row.seconds, ".4f"),
-        _number(row.over_fastest, ".4f"),
-        _number(row.over_bound, ".4f"),
-        _number(row.mended, ".4f"),
-        "-" if row.factor is None else limit_factor(row.factor),
-        _number(row.computation, ".2f"),
-        _number(row.length, ".3f"),
-        _number(row.deviation, ".1e"),
-        "; ".join(why),
+        number(row.seconds, ".4f"),
+        number(row.over_fastest, ".4f"),
+        number(row.over_bound, ".4f"),
+        number(row.mended, ".4f"),
+        factor_of(row.factor),
+        number(row.computation, ".2f"),
+        number(row.length, ".3f"),
+        number(row.deviation, ".1e"),
+        "; ".join([EXACTLY] * row.exact + [remarks(row)] * bool(remarks(row))),
     ]
+
+
+def remarks(row: RivalRow) -> str:
+    """Say what is broken, and what the program says of itself.
+
+    Parameters
+    ----------
+    row : RivalRow
+
+    Returns
+    -------
+    str
+        Empty where there is nothing to be said.
+    """
+    why = [row.faults] if row.faults else []
+    if row.own_bound is not None and row.rival != OURS:
+        why.append(f"own bound {row.own_bound:.6g} s")
+    return "; ".join([*why, row.reason] if row.reason else why)
 
 
 def summary_cells(entry: dict[str, Any]) -> list[str]:
@@ -83,36 +98,14 @@ def summary_cells(entry: dict[str, Any]) -> list[str]:
     """
     over, mended = entry["over"] or (None, None), entry["mended"] or (None, None)
     return [
-        name_of(entry["rival"]),
+        name_of(entry["rival"]) + (" (zones; points exactly)" if entry["exact"] else ""),
         *(str(entry[key]) for key in ("tasks", "kept", "broken", "none")),
-        *(_number(value, ".4f") for value in over),
+        *(number(value, ".4f") for value in over),
         str(entry["mendable"]),
-        *(_number(value, ".4f") for value in mended),
-        "-" if entry["factor"] is None else limit_factor(entry["factor"]),
-        _number(entry["work"], ".2f"),
+        *(number(value, ".4f") for value in mended),
+        factor_of(entry["factor"]),
+        number(entry["work"], ".2f"),
     ]
-
-
-def as_text(rows: Sequence[RivalRow], summary: Sequence[dict[str, Any]]) -> str:
-    """Set a table of rows per task, and then a line per program.
-
-    Parameters
-    ----------
-    rows : sequence of RivalRow
-    summary : sequence of dict
-        A ``RivalSummary`` each, as plain data.
-
-    Returns
-    -------
-    str
-    """
-    right = [index - 1 for index in RIGHT]
-    parts = []
-    for name, mine in by_task(rows).items():
-        shown = table(HEADER[1:], [cells(row)[1:] for row in mine], right=right)
-        parts.append(f"{name}\n{shown}")
-    programs = table(SUMMARY, [summary_cells(entry) for entry in summary], right=SUMMARY_RIGHT)
-    return "\n\n".join([*parts, f"all tasks\n{programs}"])
 
 
 def by_task(rows: Sequence[RivalRow]) -> dict[str, list[RivalRow]]:
@@ -199,5 +192,33 @@ def chart(rows: Sequence[RivalRow]) -> dict[str, Any]:
     }
 
 
-def _number(value: float | None, form: str) -> str:
+def number(value: float | None, form: str) -> str:
+    """Write a number that may be missing.
+
+    Parameters
+    ----------
+    value : float or None
+    form : str
+        As after the colon of a format field.
+
+    Returns
+    -------
+    str
+        ``-`` where it is missing.
+    """
     return "-" if value is None else f"{value:{form}}"
+
+
+def factor_of(factor: float | None) -> str:
+    """Write the largest value over a limit, which may be missing.
+
+    Parameters
+    ----------
+    factor : float or None
+
+    Returns
+    -------
+    str
+        As ``limit_factor`` does; ``-`` where it is missing.
+    """
+    return "-" if factor is None else limit_factor(factor)

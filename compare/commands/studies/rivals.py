@@ -75,8 +75,9 @@ def rivals(
         found = run(study.STUDY, listed_calls, folder=folder, resume=resume)
     except KeyboardInterrupt:
         found, code = finished(study.STUDY, listed_calls, folder), INTERRUPTED
-        left = len(listed_calls) - len(found.rows)
-        print(f"interrupted: {left} of {len(listed_calls)} rows are left for --resume", file=sys.stderr)
+        rows = study.count_rows(listed_calls)
+        left = rows - len(found.rows)
+        print(f"interrupted: {left} of {rows} rows are left for --resume", file=sys.stderr)
     show(found.as_text(), found.to_json(), json)
     if page is not None:
         write_text(page, as_page(found.rows, found.summary))
