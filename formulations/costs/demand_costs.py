@@ -30,6 +30,9 @@ _NOT_NESTED = ("segment limits", "cycle")
 _TORQUES = ("torque", "joint torque")  # the bound knows none, so that it is the same without them
 _IDLE = 0.99  # of its limit: a torque that stays below it does not hold a motion up
 _NOTHING = 1e-5  # s
+_LONGER = (
+    2.0  # times the search of the motion itself: so much a demand has before others have their share
+)
 _CUT_SHORT = (SearchStatus.TIME_LIMIT, SearchStatus.INTERRUPTED)
 
 
@@ -127,7 +130,8 @@ def demand_costs(
     proof : FreeFormBound, optional
         What is proved of it. It is proved again where that bound went no further than it was asked to.
     deadline : Deadline
-        Each demand has half of the time that is left, the last one all of it.
+        Each demand has half of the time that is left, or twice as long as the motion itself took; the last
+        one all that is left.
     progress : callable, optional
         Called with each demand in words before it is left out.
 
@@ -177,10 +181,10 @@ def demand_costs(
     )
     if whole is None:
         return _all_unknown(demands, f"{_ended(deadline)} before the motion itself was found")
-    idle = _idle_motors(problem, found)
+    idle, least = _idle_motors(problem, found), _LONGER * found.runtime
     costs = []
     for one in demands:
-        part = deadline if one is demands[-1] else deadline.within(deadline.left / 2.0)
+        part = deadline if one is demands[-1] else deadline.within(max(deadline.left / 2.0, least))
         if deadline.over:
             costs.append(_unknown(one, _ended(deadline)))
             continue

@@ -21,7 +21,7 @@ _COSTS = (
     60.0  # s for what the demands cost where no time limit is given: each takes as long as the motion
 )
 _LADDER = 0.75  # of a time limit for the rungs of a problem with demands; the costs have the rest
-_BEFORE_LIMITS = 2.0 / 3.0  # of the time that is left for the costs, before limits are raised
+_BEFORE_LIMITS = 2.0 / 3.0  # of what is left, for the costs where limits are to be raised after them
 
 
 def chosen_rungs(
@@ -101,11 +101,16 @@ def climb(
     )
     if answer.free_form is None:
         return answer, None
+    if isinf(deadline.end):
+        costs_end = deadline.within(_COSTS)
+    else:  # without sensitivities no limit is known to hold the motion up
+        share = 1.0 if answer.free_form.sensitivity is None else _BEFORE_LIMITS
+        costs_end = deadline.within(share * deadline.left)
     costs = demand_costs(
         problem,
         found=answer.free_form,
         proof=answer.free_form_bound,
-        deadline=deadline.within(_COSTS if isinf(deadline.end) else _BEFORE_LIMITS * deadline.left),
+        deadline=costs_end,
         progress=lambda what: stage(f"what a motion takes without {what}"),
     )
     seconds = answer.free_form.seconds

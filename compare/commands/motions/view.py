@@ -33,9 +33,7 @@ from formulations.deadlines import Deadline
 from formulations.motion.files.motion_file import read_points_or_pieces
 from formulations.motion.judgement import WAYPOINT_TOLERANCE, judge
 
-_PLANNED = (
-    0.75  # of a time limit for the motion under conditions and its bound; the ladder has the rest
-)
+_PLANNED = 0.75  # of a time limit for motion and bound under conditions; the ladder has the rest
 _LONGEST, _SHOWN = 80, 40  # characters of the name of a page, and of that of a motion on it
 
 
