@@ -5,7 +5,7 @@ from __future__ import annotations
 import importlib.metadata
 import time
 from collections.abc import Callable, Iterable, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from typing import Any
 
 import numpy as np
@@ -97,16 +97,21 @@ def judged(problem: Problem, motion: Trajectory) -> dict[str, Any]:
         The entries of a row that the check knows.
     """
     found = judge(problem, motion, conditions=problem.conditions)
-    away = np.abs(motion.at(found.motion.passage_times) - problem.waypoints).max()
     return {
         "status": KEEPS if found.feasible else BREAKS,
         "seconds": found.seconds,
         "length": path_length(motion),
-        "deviation": float(away),
+        "deviation": _off_waypoints(found, problem),
         "factor": max((p.factor for p in found.peaks), default=0.0),
         "mended": found.seconds * max(found.stretch, 1.0) if np.isfinite(found.stretch) else None,
         "faults": "; ".join(_faults(found)),
     }
+
+
+def _off_waypoints(found: Judgement, problem: Problem) -> float:
+    """The largest distance of a joint from a waypoint as the motion passes it [rad]."""
+    motion = found.motion
+    return float(np.abs(motion.at(motion.passage_times) - problem.waypoints).max())
 
 
 def _faults(found: Judgement) -> list[str]:
@@ -247,14 +252,16 @@ def run_rival(tasks: Sequence[Problem], rival: Rival, *, seconds: float, memory:
             return [RivalRow(problem=task.name, **called) for task in tasks]
     ran = run_apart(rival, asked, seconds=seconds, memory=memory)
     called |= {"reason": ran.reason, "computation": ran.computation}
-    return [
-        RivalRow(
-            problem=task.name,
-            exact=not rival.zones and has_zones(task),
-            **called | _outcome(task, ran),
-        )
-        for task in tasks
-    ]
+    given = ran.ending not in (RivalEnding.NOT_RUN, RivalEnding.NOT_INSTALLED)
+    rows = []
+    for task in tasks:
+        row = RivalRow(problem=task.name, **called | _outcome(task, ran))
+        if given and not rival.zones and has_zones(task):
+            row = replace(row, exact=True)
+            if row.deviation is not None:  # from the points, and not where it enters their zones
+                row = replace(row, deviation=_outcome(asked, ran)["deviation"])
+        rows.append(row)
+    return rows
 
 
 def _outcome(task: Problem, ran: Ran) -> dict[str, Any]:

@@ -62,7 +62,7 @@ def cells(row: RivalRow) -> list[str]:
         number(row.computation, ".2f"),
         number(row.length, ".3f"),
         number(row.deviation, ".1e"),
-        "; ".join([EXACTLY] * row.exact + [remarks(row)] * bool(remarks(row))),
+        "; ".join(filter(None, [EXACTLY if row.exact and row.seconds else "", remarks(row)])),
     ]
 
 
@@ -98,7 +98,7 @@ def summary_cells(entry: dict[str, Any]) -> list[str]:
     """
     over, mended = entry["over"] or (None, None), entry["mended"] or (None, None)
     return [
-        name_of(entry["rival"]) + (" (zones; points exactly)" if entry["exact"] else ""),
+        name_of(entry["rival"]),
         *(str(entry[key]) for key in ("tasks", "kept", "broken", "none")),
         *(number(value, ".4f") for value in over),
         str(entry["mendable"]),
@@ -106,6 +106,25 @@ def summary_cells(entry: dict[str, Any]) -> list[str]:
         factor_of(entry["factor"]),
         number(entry["work"], ".2f"),
     ]
+
+
+def summary_tables(summary: Sequence[dict[str, Any]]) -> list[tuple[str, list[list[str]]]]:
+    """Part the summary into tables: tasks as they stand, and tasks with zones whose points are passed exactly.
+
+    Parameters
+    ----------
+    summary : sequence of dict
+        A ``RivalSummary`` each, as plain data.
+
+    Returns
+    -------
+    list of (str, list of list of str)
+        Title and rows of each.
+    """
+    titles = {False: "Tasks as they stand", True: "Tasks with zones, points passed exactly"}
+    tables = ((title, [summary_cells(one) for one in summary if one["exact"] == exact])
+              for exact, title in titles.items())  # fmt: skip
+    return [(title, rows) for title, rows in tables if rows]
 
 
 def by_task(rows: Sequence[RivalRow]) -> dict[str, list[RivalRow]]:
@@ -148,7 +167,7 @@ def as_page(rows: Sequence[RivalRow], summary: Sequence[dict[str, Any]]) -> str:
         "header": HEADER[1:],
         "left": [index - 1 for index in range(1, len(HEADER)) if index not in RIGHT],
         "summary_header": SUMMARY,
-        "summary": [summary_cells(entry) for entry in summary],
+        "summaries": summary_tables(summary),
         "rivals": list(RIVALS.values()),
         "seconds": sorted({row.time_limit for row in rows}),
         "versions": {row.rival: row.version for row in rows if row.version},

@@ -15,7 +15,7 @@ import numpy as np
 
 from compare.rivals.rows import BREAKS, KEEPS, NOT_GIVEN, OURS, RivalRow
 from compare.rivals.run_study import summarise
-from compare.rivals.shown import HEADER, RIGHT, SUMMARY, SUMMARY_RIGHT, cells, name_of, summary_cells
+from compare.rivals.shown import HEADER, RIGHT, SUMMARY, SUMMARY_RIGHT, cells, name_of, summary_tables
 
 DOCS = Path(__file__).parents[1]
 PAGE, ROWS = DOCS / "howto" / "rivals.md", DOCS / "static" / "rivals.json"
@@ -58,8 +58,11 @@ def section(rows: Sequence[RivalRow], machine: str) -> str:
         [
             opened,
             *(f"- {line}" for line in [*_ours(rows), *_others(own), *_scip(own), *_exactly(given)]),
-            "\n### By program\n",
-            _table(SUMMARY, [summary_cells(entry) for entry in summary], SUMMARY_RIGHT),
+            "\n### By program",
+            *(
+                f"\n{title}:\n\n{_table(SUMMARY, of, SUMMARY_RIGHT)}"
+                for title, of in summary_tables(summary)
+            ),
             "\n### SCIP beside the proof\n",
             _beside_scip(own),
             "\n### In the same zones\n",

@@ -114,6 +114,8 @@ def test_scip_keeps_limits_between_its_nodes_too(limits: dict[str, float]) -> No
 def test_a_program_that_may_not_run_says_why(key: str) -> None:
     (row,) = run_rival([TINY], RIVALS[key], seconds=1.0, memory=1)
     assert (row.status, row.reason) == ("not run", RIVALS[key].refusal)
+    (zoned,) = run_rival([with_zones(TINY, 0.1)], RIVALS[key], seconds=1.0, memory=1)
+    assert not zoned.exact  # nothing was passed
 
 
 def test_a_missing_program_says_what_to_install() -> None:
@@ -191,6 +193,7 @@ def test_a_program_without_zones_is_given_the_points_and_marked(
     ]  # fmt: skip
     assert rows[0].seconds == rows[1].seconds
     assert rows[0].computation == rows[1].computation  # it was run once
+    assert max(row.deviation for row in rows) < 1e-8
     marked = [cells(row)[-1] for row in rows]
     assert marked == ["", "passes the points exactly"]
     (own,) = run_rival([zoned], rival, seconds=60.0, memory=4_000_000_000)  # a file with zones
