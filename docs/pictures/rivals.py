@@ -250,7 +250,10 @@ def write(data: dict[str, Any]) -> None:
         What ``timebound rivals --json`` has written.
     """
     rows = ",\n".join(
-        json.dumps({key: value for key, value in row.items() if value is not None}, ensure_ascii=False)
+        json.dumps(
+            {key: value for key, value in row.items() if value is not None and value is not False},
+            ensure_ascii=False,
+        )
         for row in data["rows"]
     )
     machine = json.dumps(data["machine"])
