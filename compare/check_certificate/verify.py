@@ -51,9 +51,12 @@ def verify(data: Any, *, show: bool = False) -> str:
     discards = 0 if tree.void else tree.replay()
     every = isinstance(tree, Relaxation)
     asked = demands_in_words(claim.demands()) if every else ""
+    parts = len(tree.tally.ends) if isinstance(tree, Relaxation) else 1
+    events = len(claim.events) if tree.void or not every else tree.tally.events
     words = (
         f"no {'motion' if every else f'{claim.family} motion'} of {str(data.get('name'))[:60]!r}{asked} "
         f"takes {float(claim.L):.12g} s or less "
-        f"({len(claim.events)} events, {discards} {'rows' if every else 'discards'})"
+        f"({events} events, {discards} {'rows' if every else 'discards'}"
+        f"{f', in {parts} parts' if parts > 1 else ''})"
     )
     return "\n".join([words, *proof_in_words(tree)]) if show and every else words

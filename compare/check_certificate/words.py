@@ -116,7 +116,7 @@ def _ends(demands: ClaimedDemands) -> str:
 
 
 def proof_in_words(checker: Relaxation) -> list[str]:
-    """Write the last sum of a proof, in SI units.
+    """Write the last sum of a proof, and of each of its parts, in SI units.
 
     Parameters
     ----------
@@ -129,6 +129,20 @@ def proof_in_words(checker: Relaxation) -> list[str]:
         A line per inequality, after the chain to a limited tool.
     """
     lines = chain_in_words(checker.claim.demands())
+    for part in checker.tally.ends:
+        if part.splits:
+            where = [
+                f"{_name(key, part)} {'>=' if side else '<='} {float(value):.6g}"
+                for key, side, value in part.splits
+            ]
+            lines.append(f"where {', '.join(where)}:")
+        lines += _sum_in_words(part)
+    return lines
+
+
+def _sum_in_words(checker: Relaxation) -> list[str]:
+    """A line per inequality of the last sum of a part."""
+    lines = []
     for raw in checker.sum:
         of = KINDS[str(raw[0])]
         if str(raw[0]) in "wmvardkgxjVRDK":

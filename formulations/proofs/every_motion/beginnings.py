@@ -18,7 +18,7 @@ from formulations.proofs.every_motion.closed_forms import (
 from formulations.proofs.every_motion.relaxation.boxes import Boxes, clipped
 from formulations.proofs.every_motion.relaxation.cuts import Cuts, Kind
 from formulations.proofs.every_motion.relaxation.propagation import propagate
-from formulations.proofs.every_motion.relaxation.relaxed_problem import RelaxedProblem
+from formulations.proofs.every_motion.relaxation.relaxed_problem import DOWN, UP, RelaxedProblem
 from formulations.proofs.rest_to_rest import end_to_end_bound
 
 _TANGENTS = 4  # for each duration to begin with
@@ -87,6 +87,24 @@ def first_boxes(demands: Demands, relaxed: RelaxedProblem, boxes: Boxes | None) 
     segments[:, 1] = np.minimum(segments[:, 1], relaxed.horizon * (1.0 + 1e-12) - others)
     empty = bool((durations[:, 0] > durations[:, 1]).any())
     return propagate(relaxed, clipped(relaxed, replace(boxes, durations=durations, empty=empty)))
+
+
+def derived_boxes(relaxed: RelaxedProblem) -> Boxes:
+    """Make the boxes that a checker derives by itself.
+
+    They follow from displacement over top speed, from what the others leave, and from the limits.
+
+    Parameters
+    ----------
+    relaxed : RelaxedProblem
+
+    Returns
+    -------
+    Boxes
+    """
+    least = np.maximum(DOWN * relaxed.at_top_speed, relaxed.least)[: relaxed.n_segments]
+    most = np.minimum(relaxed.most[: relaxed.n_segments], relaxed.horizon * UP - (least.sum() - least))
+    return Boxes.around(relaxed, least, most)
 
 
 def tangents(durations: Array) -> Cuts:

@@ -24,10 +24,11 @@ In place of a segment stands the pair of waypoints at the ends of a leg over sev
 Events: ["N", "T", segment, side, rows] or ["N", "a", "v" or "x", waypoint, joint, side, rows] narrows a box
 (of a duration, an acceleration, a velocity, or a position in a zone, from the middle of the zone) from
 below (side 0) or from above (side 1), with effect after the next ["P"], which also narrows the
-accelerations by (13), or ["R"], which does not. ["F", rows] ends with the bound, ["E", rows] with the
-proof that no motion is left, as does an event that leaves a box empty. Segments and joints have the
-numbers of the problem, counted from 0; a segment between two waypoints that are kept has the number of the
-first, and waypoints that are not kept do not occur.
+accelerations by (13), or ["R"], which does not. ["S", segment, value, events, events] splits the box of a
+duration; both parts have events of their own, those of the lower part first. ["F", rows] ends with the bound,
+["E", rows] with the proof that no motion is left, as does an event that leaves a box empty. Segments and
+joints have the numbers of the problem, counted from 0; a segment between two waypoints that are kept has the
+number of the first, and waypoints that are not kept do not occur.
 """
 
 from __future__ import annotations
@@ -36,7 +37,6 @@ from typing import Any
 
 import numpy as np
 
-from formulations.deadlines import Deadline
 from formulations.problem.arrays import Array
 from formulations.proofs.every_motion.relaxation.boxes import Boxes
 from formulations.proofs.every_motion.relaxation.cuts import (
@@ -50,117 +50,80 @@ from formulations.proofs.every_motion.relaxation.cuts import (
     STOPS,
     TANGENTS,
     ZONES,
-    Cuts,
     Kind,
 )
 from formulations.proofs.every_motion.relaxation.linear_program import LinearProgram, LPSolution
-from formulations.proofs.every_motion.relaxation.propagation import propagate
-from formulations.proofs.every_motion.relaxation.relaxed_problem import DOWN, UP, RelaxedProblem
+from formulations.proofs.every_motion.relaxation.relaxed_problem import RelaxedProblem
 from formulations.proofs.every_motion.relaxation.rows import Frame
-from formulations.proofs.every_motion.relaxation.tightening import FEW, MANY, tighten
 
 Event = list[Any]
-_ROUNDS, _TOLERANCE = 100, 1e-9  # of cuts
-_STEPS = 30  # of narrower boxes
-_SLOW = 0.1  # of the way to the target: a step that gains less needs better bounds
-_MARGIN = 1e-10  # of the bound, for the checker's own boxes and rows
 
 
-def bound_with_events(
-    relaxed: RelaxedProblem,
-    horizon: float,
-    target: float,
-    cuts: Cuts,
-    typical: Array,
-    deadline: Deadline,
-) -> tuple[float, list[Event]]:
-    """Prove a bound and record the proof.
+class EventLog:
+    """The events of ``tighten``.
 
-    Parameters
+    Attributes
     ----------
-    relaxed : RelaxedProblem
-        For this horizon.
-    horizon : float [s]
-        The time H, with all waits.
-    target : float [s]
-        The bound to stop at.
-    cuts : Cuts
-        To begin with.
-    typical : Array, shape (n_segments,) [s]
-        Units of the durations.
-    deadline : Deadline
-
-    Returns
-    -------
-    bound : float [s]
-        0 where nothing was proved.
     events : list
     """
-    boxes = propagate(relaxed, _first_boxes(relaxed))
-    units = relaxed.units(typical)
-    record = _Events()
-    record.renewed()
-    narrowing = record.events
-    if boxes.empty:
-        return horizon, [*narrowing, *_without_time(relaxed, boxes)]
-    best: tuple[float, list[Event]] = (0.0, [])
-    before, rounds = 0.0, FEW
-    for _ in range(_STEPS):
-        frame = Frame(relaxed, boxes, units)
-        program = LinearProgram(frame, cuts, for_checker=True)
-        solution = program.solve(frame.cost, rounds=_ROUNDS, tolerance=_TOLERANCE, deadline=deadline)
-        if solution.empty:
-            return horizon, [*narrowing, ["E", _rows_of(program, solution.multipliers)]]
-        bound = min(solution.bound + relaxed.waits, horizon) * (1.0 - _MARGIN)
-        if bound > best[0]:
-            best = bound, [*narrowing, ["F", _rows_of(program, solution.multipliers)]]
-        if best[0] >= target or deadline.over:
-            break
-        slow = bound - before < _SLOW * (target - before)
-        before, rounds = bound, MANY if slow else rounds
-        boxes, cuts = tighten(program, solution, deadline, record, rounds)
-        if boxes.empty:
-            # ends with "E", or with the "P" that leaves a box empty
-            return horizon, [*narrowing, *_without_time(relaxed, boxes)]
-    return best
-
-
-def _without_time(relaxed: RelaxedProblem, boxes: Boxes) -> list[Event]:
-    """Events that name the legs over several segments whose box is empty: a checker knows those named."""
-    empty = np.flatnonzero(boxes.durations[:, 0] > boxes.durations[:, 1]).tolist()
-    return [["N", "T", _leg(relaxed, k), 0, []] for k in empty if k >= relaxed.n_segments]
-
-
-class _Events:
-    """The events of ``tighten``."""
 
     def __init__(self) -> None:
         """Begin without events."""
         self.events: list[Event] = []
 
     def narrowed(self, program: LinearProgram, column: int, side: int, found: LPSolution) -> None:
-        """Note what narrows a box, or proves that nothing is left."""
+        """Note what narrows a box, or proves that nothing is left.
+
+        Parameters
+        ----------
+        program : LinearProgram
+        column : int
+            Of the variable.
+        side : int
+            0 from below, 1 from above.
+        found : LPSolution
+        """
         head, unit = _narrowed(program.frame, column)
-        rows = _rows_of(program, found.multipliers * unit)
+        rows = rows_of(program, found.multipliers * unit)
         self.events.append(["E", rows] if found.empty else [*head, side, rows])
 
     def renewed(self) -> None:
         """Note that the narrowed boxes count from now on."""
         self.events.append(["P"])
 
+    def without_time(self, relaxed: RelaxedProblem, boxes: Boxes) -> None:
+        """Name the legs over several segments whose box is empty: a checker knows those named.
 
-def _first_boxes(relaxed: RelaxedProblem) -> Boxes:
-    """From displacement over top speed, from what the others leave, and from the limits."""
-    least = np.maximum(DOWN * relaxed.at_top_speed, relaxed.least)[: relaxed.n_segments]
-    most = np.minimum(relaxed.most[: relaxed.n_segments], relaxed.horizon * UP - (least.sum() - least))
-    return Boxes.around(relaxed, least, most)
+        Parameters
+        ----------
+        relaxed : RelaxedProblem
+        boxes : Boxes
+        """
+        empty = np.flatnonzero(boxes.durations[:, 0] > boxes.durations[:, 1]).tolist()
+        self.events += [
+            ["N", "T", leg_name(relaxed, k), 0, []] for k in empty if k >= relaxed.n_segments
+        ]
+
+    def split(self, relaxed: RelaxedProblem, k: int, at: float, parts: list[list[Event]]) -> None:
+        """Note that the box of a duration is split.
+
+        Parameters
+        ----------
+        relaxed : RelaxedProblem
+        k : int
+            The leg.
+        at : float [s]
+        parts : list of list
+            The events of the lower part and of the upper part.
+        """
+        self.events.append(["S", leg_name(relaxed, k), _hex(at), *parts])
 
 
 def _narrowed(frame: Frame, column: int) -> tuple[Event, float]:
     """The head of the event that narrows a variable, and the variable's unit."""
     relaxed = frame.relaxed
     if column < frame.L:
-        return ["N", "T", _leg(relaxed, column)], float(frame.typical[column])
+        return ["N", "T", leg_name(relaxed, column)], float(frame.typical[column])
     for name, columns, units in (
         ("a", frame.a, np.broadcast_to(relaxed.acceleration, frame.a.shape)),
         ("v", frame.v, np.broadcast_to(relaxed.velocity, frame.v.shape)),
@@ -173,8 +136,18 @@ def _narrowed(frame: Frame, column: int) -> tuple[Event, float]:
     raise ValueError(f"column {column} is of no variable that is narrowed")
 
 
-def _rows_of(program: LinearProgram, multipliers: Array) -> list[Event]:
-    """Rows with their multipliers for SI units."""
+def rows_of(program: LinearProgram, multipliers: Array) -> list[Event]:
+    """Write down rows with their multipliers for SI units.
+
+    Parameters
+    ----------
+    program : LinearProgram
+    multipliers : Array, shape (n_rows,)
+
+    Returns
+    -------
+    list
+    """
     frame, cuts = program.frame, program.cuts
     relaxed, unit = frame.relaxed, frame.typical
     y = np.maximum(multipliers, 0.0) * program.rows.scale  # for the rows before they were scaled
@@ -185,12 +158,12 @@ def _rows_of(program: LinearProgram, multipliers: Array) -> list[Event]:
     for name, which, units in (("s", frame.long, unit), ("S", frame.short, unit**-2)):
         for k in np.flatnonzero(which).tolist():
             if y[first]:
-                rows.append([name, _leg(relaxed, k), _hex(y[first] * units[k])])
+                rows.append([name, leg_name(relaxed, k), _hex(y[first] * units[k])])
             first += 1
     for k in range(frame.K, frame.L):
         for sign, value in zip((1, -1), y[first : first + 2].tolist(), strict=True):
             if value:
-                rows.append(["e", _leg(relaxed, k), sign, _hex(value / unit[k])])
+                rows.append(["e", leg_name(relaxed, k), sign, _hex(value / unit[k])])
         first += 2
     of_sums = y[first : program.n_fixed].tolist()
     for (waypoint, side), value in zip(frame.bounded_sums, of_sums, strict=True):
@@ -200,7 +173,7 @@ def _rows_of(program: LinearProgram, multipliers: Array) -> list[Event]:
     places = frame.place(cuts) * unit[cuts.segment]
     for i in np.flatnonzero(of_cuts).tolist():
         kind, k, j = Kind(int(cuts.kind[i])), int(cuts.segment[i]), int(cuts.joint[i])
-        segment, joint, sign = _leg(relaxed, k), int(relaxed.joints[j]), int(cuts.sign[i])
+        segment, joint, sign = leg_name(relaxed, k), int(relaxed.joints[j]), int(cuts.sign[i])
         at, value = [_hex(x) for x in cuts.at[i]], float(of_cuts[i])
         times_T = kind.times_T
         reach = value / (float(unit[k]) if times_T else 1.0)
@@ -245,8 +218,18 @@ def _rows_of(program: LinearProgram, multipliers: Array) -> list[Event]:
     return rows
 
 
-def _leg(relaxed: RelaxedProblem, k: int) -> int | list[int]:
-    """The name of a leg: of a segment the number of its first waypoint, else the waypoints at both ends."""
+def leg_name(relaxed: RelaxedProblem, k: int) -> int | list[int]:
+    """Name a leg: a segment by the number of its first waypoint, else by the waypoints at both ends.
+
+    Parameters
+    ----------
+    relaxed : RelaxedProblem
+    k : int
+
+    Returns
+    -------
+    int or list of int
+    """
     return (
         int(relaxed.segments[k])
         if k < relaxed.n_segments

@@ -3,7 +3,7 @@
 The boxes hold all motions of at most H seconds, for any horizon H. So min(optimum of the relaxation, H)
 is a lower bound, and H need not be the time of a motion. The first horizon is the time of the fastest
 motion known. If the bound is far below it, the next horizon lies a little above the bound: the boxes are
-then narrower and the relaxation is tighter.
+then narrower and the relaxation is tighter. Where narrowing stalls near a known motion, the boxes are split.
 """
 
 from __future__ import annotations
@@ -18,9 +18,14 @@ from formulations.motion.trajectory import Trajectory
 from formulations.problem.arrays import Array
 from formulations.problem.demands import Demands
 from formulations.proofs.every_motion.attaining_motion.hunt import MotionHunt
-from formulations.proofs.every_motion.beginnings import first_bounds, first_boxes, tangents
+from formulations.proofs.every_motion.beginnings import (
+    derived_boxes,
+    first_bounds,
+    first_boxes,
+    tangents,
+)
 from formulations.proofs.every_motion.closed_forms import bound_at_top_speed
-from formulations.proofs.every_motion.events import bound_with_events
+from formulations.proofs.every_motion.parts import PartedProof
 from formulations.proofs.every_motion.prices import price_limits
 from formulations.proofs.every_motion.relaxation.boxes import Boxes
 from formulations.proofs.every_motion.relaxation.cuts import Cuts
@@ -208,7 +213,7 @@ class HorizonSearch:
         boxes = first_boxes(self.demands, relaxed, boxes)
         typical = relaxed.units(self.typical)
         tolerance = min(max(1e-3 * gap, 1e-9), 1e-7)
-        stalled, rounds = False, FEW
+        rounds = FEW
         while not boxes.empty:
             frame = Frame(relaxed, boxes, typical)
             program = LinearProgram(frame, Cuts.joined([tangents(boxes.durations), self.cuts]))
@@ -238,14 +243,34 @@ class HorizonSearch:
                 break
             if horizon > self.seconds * (1.0 + _FAR):
                 return None, boxes
-            if stalled and self.seconds - before < _STALLED * (horizon - before):
-                return None, boxes
+            slow = self.seconds - before < _STALLED * (horizon - before)
+            if slow and rounds == MANY:
+                return self._in_parts(relaxed, horizon, boxes, gap, deadline), boxes
             narrower, self.cuts = tighten(program, solution, deadline, rounds=rounds)
-            stuck = narrower.width > (1.0 - _STALLED) * boxes.width
-            stalled, rounds = stuck and rounds == MANY, MANY if stuck else rounds
+            if slow or narrower.width > (1.0 - _STALLED) * boxes.width:
+                rounds = MANY
             boxes = narrower
         self._improve(horizon)
         return (Ending(BoundStatus.PROVED) if self.met(gap) else None), boxes
+
+    def _in_parts(
+        self, relaxed: RelaxedProblem, horizon: float, boxes: Boxes, gap: float, deadline: Deadline
+    ) -> Ending | None:
+        """Split boxes that cannot be narrowed, where a motion says how much there is to gain."""
+        if self.upper is None or not self.hunt.given:
+            return None
+        target = self.upper / (1.0 + gap)
+        proof = PartedProof(relaxed, horizon, target, self.typical, deadline, for_checker=False)
+        proof.prove(boxes, self.cuts, stuck_at=self.seconds)
+        if proof.bound > self.seconds and not proof.least.empty:
+            program = LinearProgram(proof.frame(proof.least.boxes), proof.least.cuts)
+            solution = program.solve(program.frame.cost, rounds=FEW, tolerance=1e-7, deadline=deadline)
+            if solution.status == LPStatus.OPTIMAL:
+                self._describe(program, solution)
+        self._improve(proof.bound)
+        if self.met(gap):
+            return Ending(BoundStatus.PROVED)
+        return _out_of_time(deadline) if deadline.over else None
 
     def certify(self, deadline: Deadline) -> tuple[float, float, list[list[Any]]]:
         """Prove a bound near the best one again, so that a checker can follow it.
@@ -268,14 +293,10 @@ class HorizonSearch:
         if not len(relaxed.joints) or not self.seconds > least * (1.0 + 1e-9):
             return least, least, self._without_rows()
         with np.errstate(over="ignore", divide="ignore", invalid="ignore"):
-            bound, events = bound_with_events(
-                relaxed,
-                horizon,
-                self.seconds * (1.0 - 1e-8),
-                self.cuts,
-                self.typical,
-                deadline,
-            )
+            target = self.seconds * (1.0 - 1e-8)
+            proof = PartedProof(relaxed, horizon, target, self.typical, deadline, for_checker=True)
+            events = proof.prove(derived_boxes(relaxed), self.cuts)
+        bound = proof.bound
         if not bound > least:
             return least, least, self._without_rows()
         self._improve(bound)  # a near horizon may prove more
@@ -312,20 +333,25 @@ class HorizonSearch:
 
     def _keep(self, program: LinearProgram, solution: LPSolution) -> None:
         """Keep the bound of a solve and, if it is the best one, its durations and savings."""
-        relaxed, problem = program.frame.relaxed, self.problem
+        relaxed = program.frame.relaxed
+        self.rows = len(program.rows)
         bound = min(solution.bound, relaxed.horizon)
         if relaxed.waits:
             bound = (bound + relaxed.waits) * _BELOW
-        self.rows = len(program.rows)
         if bound > self.bounds.get("relaxation", 0.0):
-            self.durations = np.zeros(problem.n_segments)
-            found = solution.x[program.frame.T] * program.frame.typical
-            self.durations[relaxed.segments] = found[: relaxed.n_segments]
-            self.savings = np.zeros((3, problem.n_segments, problem.dof))
-            self.savings[:, relaxed.segments[:, None], relaxed.joints] = price_limits(
-                self.demands, program, solution
-            )
+            self._describe(program, solution)
         self._improve(bound)
+
+    def _describe(self, program: LinearProgram, solution: LPSolution) -> None:
+        """Keep the durations and the savings of a solve."""
+        relaxed, problem = program.frame.relaxed, self.problem
+        self.durations = np.zeros(problem.n_segments)
+        found = solution.x[program.frame.T] * program.frame.typical
+        self.durations[relaxed.segments] = found[: relaxed.n_segments]
+        self.savings = np.zeros((3, problem.n_segments, problem.dof))
+        self.savings[:, relaxed.segments[:, None], relaxed.joints] = price_limits(
+            self.demands, program, solution
+        )
 
 
 def _why(solution: LPSolution) -> str:

@@ -2,72 +2,122 @@
 
 The claim: no motion of at most H seconds takes L or less. ``inequalities`` states what every motion obeys.
 For multipliers >= 0, the cost plus the weighted sum of the rows is linear in bounded variables: its least
-value is a lower bound of the cost. An event narrows one variable so, or ends the proof. The module
-``accelerations`` narrows accelerations without a sum.
+value is a lower bound of the cost. An event narrows one variable so, ends the proof, or splits the box of a
+duration: then both parts have events of their own, and each has to end. The module ``accelerations`` narrows
+accelerations without a sum.
 """
 
 from __future__ import annotations
 
+from copy import copy
+from dataclasses import dataclass, field
 from itertools import pairwise
 from typing import Any
 
 from compare.check_certificate.answers import BadInput, Refused, need
 from compare.check_certificate.balls import R, least, most
-from compare.check_certificate.claim import Claim
+from compare.check_certificate.claim import MOST_EVENTS, Claim
 from compare.check_certificate.families.every_motion.accelerations import greatest, weights
 from compare.check_certificate.families.every_motion.inequalities import SUMS, Inequalities, require_row
 from compare.check_certificate.families.every_motion.setting import Variable
 from compare.check_certificate.reading import index, items, number
 
 MOST_ROWS = 1_000_000
+MOST_SPLITS = 100  # one inside the other
+
+
+@dataclass
+class Tally:
+    """What a proof consists of: numbers of events and rows, and the ends of its parts, each with its sum."""
+
+    events: int = 0
+    rows: int = 0
+    ends: list[Relaxation] = field(default_factory=list)
 
 
 class Relaxation(Inequalities):
-    """Boxes that the events narrow; sum: the rows of the last sum, which ends the proof."""
+    """Boxes that the events narrow; sum: the rows of the last sum; splits: of which part this is."""
 
     def __init__(self, claim: Claim) -> None:
         H = number(claim.horizon)
         need(H >= claim.L, "the horizon is below the bound")
         super().__init__(claim, H)
         self.sum: list[Any] = []
+        self.splits: list[tuple[Variable, int, Any]] = []  # a duration, below (0) or above (1), where
+        self.tally = Tally()
         self._seen: dict[
             int, list[Any]
         ] = {}  # the intervals from which accelerations were narrowed last
 
     def replay(self) -> int:
         """Verify every event; returns the number of rows with multipliers."""
-        count, pending = 0, dict(self.boxes)
-        for place, raw in enumerate(self.claim.events, 1):
-            event, where = items(raw, 1, 6), f"event {place}"
+        self._replay(self.claim.events, dict(self.boxes), "event")
+        return self.tally.rows
+
+    def _replay(self, events: list[Any], pending: dict[Variable, tuple[Any, Any]], of: str) -> None:
+        """Verify the events of one box; pending boxes come into force at the next "P" or "R"."""
+        for place, raw in enumerate(events, 1):
+            event, where = items(raw, 1, 6), f"{of} {place}"
             letter = str(event[0])
+            self.tally.events += 1
+            if letter == "S":
+                return self._replay_parts(event, pending, where)
             if letter in ("R", "P"):
                 empty = letter == "P" and self._propagate(pending)
-                if self._renew(pending) or empty:
-                    return count  # nothing is left
-                continue
-            rows = items(event[-1], 0, MOST_ROWS)
-            count += len(rows)
-            self.sum = rows
-            if letter == "N":
-                key, side = self._narrowed(event)
-                bound = self.least({key: R(-1 if side else 1)}, rows)
-                need(bound.is_finite(), f"{where}: the box is not narrowed")
-                lo, hi = pending.get(key, self.boxes[key])
-                pending[key] = (
-                    (lo, least(hi, (-bound).upper())) if side else (most(lo, bound.lower()), hi)
-                )
-                if pending[key][0] > pending[key][1]:
-                    return count  # nothing is left
-            elif letter == "F":
-                total = self.least({}, rows, time=1)
-                need(total + self.waits > self.claim.L, f"{where}: the sum is not above the bound")
-                return count
-            elif letter == "E":
-                need(self.least({}, rows) > 0, f"{where}: something is left")
-                return count
+                ended = self._renew(pending) or empty
             else:
-                raise BadInput(f"{where}: unknown event {letter!r:.20}")
+                ended = self._add_up(event, letter, pending, where)
+            if ended:
+                self.tally.ends.append(self)
+                return None
         raise Refused("the events end before the bound")
+
+    def _add_up(
+        self, event: list[Any], letter: str, pending: dict[Variable, tuple[Any, Any]], where: str
+    ) -> bool:
+        """Verify an event with a sum of rows; whether nothing is left, or all of it takes longer."""
+        rows = items(event[-1], 0, MOST_ROWS)
+        self.tally.rows += len(rows)
+        self.sum = rows
+        if letter == "F":
+            total = self.least({}, rows, time=1)
+            need(total + self.waits > self.claim.L, f"{where}: the sum is not above the bound")
+            return True
+        if letter == "E":
+            need(self.least({}, rows) > 0, f"{where}: something is left")
+            return True
+        if letter != "N":
+            raise BadInput(f"{where}: unknown event {letter!r:.20}")
+        key, side = self._narrowed(event)
+        bound = self.least({key: R(-1 if side else 1)}, rows)
+        need(bound.is_finite(), f"{where}: the box is not narrowed")
+        lo, hi = pending.get(key, self.boxes[key])
+        pending[key] = (lo, least(hi, (-bound).upper())) if side else (most(lo, bound.lower()), hi)
+        return bool(pending[key][0] > pending[key][1])
+
+    def _replay_parts(
+        self, event: list[Any], pending: dict[Variable, tuple[Any, Any]], where: str
+    ) -> None:
+        """Verify both parts of a box that is split at a duration: each has to end by itself."""
+        _, segment, at, *parts = items(event, 5, 5)
+        need(len(self.splits) < MOST_SPLITS, f"{where}: more than {MOST_SPLITS} splits in each other")
+        key, value = ("T", self.leg(segment)), number(at)
+        lo, hi = pending.get(key, self.boxes[key])
+        for side, events in enumerate(parts):
+            part = self._part(key, side, value)
+            cut = (most(lo, value), hi) if side else (lo, least(hi, value))
+            if not cut[0] > cut[1]:
+                name = f"{where}, {'upper' if side else 'lower'} part, event"
+                part._replay(items(events, 0, MOST_EVENTS), {**pending, key: cut}, name)
+
+    def _part(self, key: Variable, side: int, value: Any) -> Relaxation:
+        """Copy all that a part finds out: it is not true of the other part."""
+        part = copy(self)
+        part.boxes, part.legs = dict(self.boxes), dict(self.legs)
+        part.V, part.A = dict(self.V), dict(self.A)
+        part.spans, part._seen = list(self.spans), {}
+        part.splits = [*self.splits, (key, side, value)]
+        return part
 
     def _renew(self, boxes: dict[Variable, tuple[Any, Any]]) -> bool:
         """Put boxes in force, of legs over several others within the sums of these; whether one is empty."""

@@ -28,6 +28,8 @@ class MotionHunt:
         That motion, if it was found here.
     attained : float [s]
         Time of the fastest motion found that may leave the position limits.
+    given : bool
+        Whether a motion was known before.
     """
 
     def __init__(self, problem: Problem, upper: float | None) -> None:
@@ -42,7 +44,8 @@ class MotionHunt:
         self.problem, self.upper = problem, upper
         self.motion: Trajectory | None = None
         self.attained = np.inf
-        self._looking = upper is None  # whether durations nearby are worth their time
+        self.given = upper is not None
+        self._looking = not self.given  # whether durations nearby are worth their time
 
     def look(
         self, durations: Array, cuts: Cuts, *, bound: float, gap: float, deadline: Deadline

@@ -21,7 +21,8 @@ from compare.studies.conditioned_problems import drawn_problem
 from formulations.deadlines import Deadline
 from formulations.problem.demands import Demands
 from formulations.proofs.certificate import certificate_of
-from formulations.proofs.every_motion import events
+from formulations.proofs.every_motion.beginnings import derived_boxes
+from formulations.proofs.every_motion.parts import PartedProof
 from formulations.proofs.every_motion.relaxation.cuts import Cuts
 from formulations.proofs.every_motion.relaxation.propagation import propagate
 from formulations.proofs.every_motion.relaxation.relaxed_problem import RelaxedProblem
@@ -38,7 +39,7 @@ def test_all_boxes_are_those_of_the_checker(kind: str, seed: int) -> None:
     demands = Demands.of(problem, conditions)
     relaxed = RelaxedProblem.under(with_tool_times(demands), HORIZON)
     with np.errstate(divide="ignore", invalid="ignore"):
-        boxes = propagate(relaxed, events._first_boxes(relaxed))
+        boxes = propagate(relaxed, derived_boxes(relaxed))
         frame = Frame(relaxed, boxes, np.full(relaxed.n_segments, 0.7))
     data = certificate_of(problem, 1e-3, [["P"], ["F", []]], horizon=HORIZON, demands=demands)
     checker = Relaxation(Claim(json.loads(json.dumps(data))))
@@ -87,9 +88,8 @@ def test_a_leg_over_several_segments_that_has_no_time_is_named() -> None:
     relaxed = RelaxedProblem.under(demands, horizon)
     typical = np.full(len(demands.durations), 0.2)
     with np.errstate(divide="ignore", invalid="ignore"):
-        bound, found = events.bound_with_events(
-            relaxed, horizon, horizon, Cuts.none(), typical, Deadline(5.0)
-        )
-    assert bound == horizon
-    data = certificate_of(demands.problem, bound, found, horizon=horizon, demands=demands)
+        proof = PartedProof(relaxed, horizon, horizon, typical, Deadline(5.0), for_checker=True)
+        found = proof.prove(derived_boxes(relaxed), Cuts.none())
+    assert proof.bound == horizon
+    data = certificate_of(demands.problem, horizon, found, horizon=horizon, demands=demands)
     verify(json.loads(json.dumps(data)))
