@@ -27,7 +27,8 @@ _MEANING = """\
 over fastest: time over that of the fastest motion of the task that keeps all
 slowed to: time once stretched until it keeps all; - where no stretch mends it
 worst limit: largest value over its limit
-work: of the program itself, over all tasks the median
+work: of the program itself, over all tasks the median"""
+_EXACT_MEANING = """
 points passed exactly: by programs that know no zones; their motions are valid
   within them"""
 
@@ -59,8 +60,9 @@ def as_text(rows: Sequence[RivalRow], summary: Sequence[dict[str, Any]]) -> str:
     ]  # fmt: skip
     parts.append(f"all tasks\n{table(_SUMMARY, _grouped(lines), right=range(1, len(_SUMMARY)))}")
     if away := _not_given(rows):
-        parts.append(f"not run, or not to be asked for a task\n{away}")
-    return "\n\n".join([*parts, _MEANING])
+        parts.append(f"not given a task\n{away}")
+    meaning = _MEANING + (_EXACT_MEANING if any(row.exact for row in rows) else "")
+    return "\n\n".join([*parts, meaning])
 
 
 def _task(name: str, rows: Sequence[RivalRow]) -> str:

@@ -281,6 +281,7 @@ def test_programs_that_are_not_given_a_task_stand_at_the_end_with_reasons() -> N
         "not run, or not to be asked for a task\n"
     )
     assert "SCIP" not in tables
+    assert "points passed exactly" not in tables + end
     assert "SCIP         2  not installed: pip install pyscipopt" in end
 
 
