@@ -277,9 +277,7 @@ def test_tables_fit_into_eighty_columns() -> None:
 def test_programs_that_are_not_given_a_task_stand_at_the_end_with_reasons() -> None:
     absent = RivalRow("tiny", "scip", "", "not installed", "pip install pyscipopt")
     rows = beside([OURS, absent, replace(absent, problem="other"), replace(OURS, problem="other")])
-    tables, _, end = as_text(rows, summarise(rows)).partition(
-        "not run, or not to be asked for a task\n"
-    )
+    tables, _, end = as_text(rows, summarise(rows)).partition("not given a task\n")
     assert "SCIP" not in tables
     assert "points passed exactly" not in tables + end
     assert "SCIP         2  not installed: pip install pyscipopt" in end
