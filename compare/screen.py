@@ -34,7 +34,7 @@ def table(header: Sequence[str], rows: Sequence[Sequence[str]], right: Sequence[
     Parameters
     ----------
     header : sequence of str
-        A title for each column.
+        A title for each column; its line breaks are kept.
     rows : sequence of sequences of str
         The cells; all rows as long as the header.
     right : sequence of int
@@ -66,7 +66,10 @@ def _width(header: Sequence[str], rows: Sequence[Sequence[str]]) -> int:
     """Columns of the terminal if the table can be fitted to them, else as many as it needs."""
     if not sys.stdout.isatty():
         return _UNLIMITED
-    widest = [max(cell_len(line[i]) for line in (header, *rows)) for i in range(len(header))]
+    widest = [
+        max(cell_len(part) for line in (header, *rows) for part in line[i].split("\n"))
+        for i in range(len(header))
+    ]
     columns = shutil.get_terminal_size().columns
     return columns if sum(widest[:-1]) + 2 * len(header) + _NARROWEST <= columns else _UNLIMITED
 

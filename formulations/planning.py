@@ -23,6 +23,7 @@ from formulations.problem.problem import Problem
 from formulations.proofs.every_motion.bound import FreeFormBound
 
 _PROOF, _EACH = 20.0, 0.1  # s for the bound, where the time limit leaves more; at least per segment
+_KEPT = 0.25  # of a time limit that the motion leaves to the bound, which needs no more than it is given above
 
 if TYPE_CHECKING:
     from matplotlib.figure import Figure
@@ -150,7 +151,8 @@ def plan(
     bound : bool, default True
         Whether to prove the lower bound too, for which it takes 20 s at the most, or 0.1 s per segment.
     time_limit : float, optional [s]
-        End after this time, with the best motion that was verified and the best bound that was proved.
+        End after this time, with the best motion that was verified and the best bound that was proved. A
+        quarter of it, at most what the bound takes, is kept for the bound.
     stop : callable, optional
         Asked again and again whether to end now, in the same way.
     progress : callable, optional
@@ -183,12 +185,14 @@ def plan(
     say = progress or (lambda line: None)
     asked = problem.conditions if conditions is None else conditions
     deadline = Deadline(time_limit, stop)
+    for_proof = max(_PROOF, _EACH * problem.n_segments)
+    kept = min(for_proof, _KEPT * (time_limit or 0.0)) if bound else 0.0
     with explained(problem, asked, deadline=deadline):
         found = free_form(
             problem,
             conditions=asked,
             tolerance=gap,
-            time_limit=time_limit,
+            time_limit=None if time_limit is None else time_limit - kept,
             stop=stop,
             progress=lambda what, seconds: say(f"{what}: {seconds:.6g} s"),
         )
@@ -198,7 +202,7 @@ def plan(
         found, proof = proved_motion(
             found,
             gap=gap,
-            time_limit=deadline.within(max(_PROOF, _EACH * problem.n_segments)).left,
+            time_limit=deadline.within(for_proof).left,
             stop=stop,
         )
     return PlannedMotion(problem, found, proof)

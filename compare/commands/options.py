@@ -259,6 +259,11 @@ Without = Annotated[
 TimeLimit = Annotated[
     float | None,
     Parameter(name="--time-limit", metavar="SECONDS", validator=positive,
-              help="End after this time, with the best that was verified and proved until then."),
+              help="End after this time, with the best that was verified and proved until then; a part of it is"
+                   " kept for the bound."),
 ]  # fmt: skip
-Gap = Annotated[float, Parameter(name="--gap", validator=positive, help="Relative gap to be reached.")]
+Gap = Annotated[
+    float,
+    Parameter(name="--gap", validator=positive,
+              help="Gap to be reached: the time of the motion over the proved bound, minus 1."),
+]  # fmt: skip

@@ -1,11 +1,12 @@
-"""What a rival is, and what its function returns: a motion as exact pieces, or the reason why there is none."""
+"""What a rival is, what it can be asked for, and what it answers: a motion as exact pieces, or why not."""
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 from formulations import Trajectory
 from formulations.problem.arrays import Array
+from formulations.problem.errors import UnsupportedProblem
 from formulations.problem.problem import Problem
 
 
@@ -81,3 +82,56 @@ def moving_waypoints(problem: Problem) -> Array:
     """
     moves = (problem.displacements != 0.0).any(axis=1)
     return problem.waypoints[[True, *moves.tolist()]]
+
+
+def require_askable(problem: Problem, rival: Rival) -> None:
+    """Refuse a task that a program cannot be asked for.
+
+    Parameters
+    ----------
+    problem : Problem
+        Without zones, where the program knows none.
+    rival : Rival
+
+    Raises
+    ------
+    UnsupportedProblem
+        The message says what cannot be asked for.
+    """
+    if not rival.zones:
+        problem.require_plain(rival.name)
+        return
+    if problem.n_segments > 1 and not problem.conditions.tolerance:
+        raise UnsupportedProblem(
+            f"{rival.name}: passes no inner waypoint exactly; see the task with zones"
+        )
+    plain = replace(problem, conditions=replace(problem.conditions, tolerance={}))
+    plain.require_plain(rival.name)
+
+
+def has_zones(problem: Problem) -> bool:
+    """Say whether a task has waypoints that may be passed within a zone.
+
+    Parameters
+    ----------
+    problem : Problem
+
+    Returns
+    -------
+    bool
+    """
+    return bool(problem.conditions.boxes(problem.dof))
+
+
+def without_zones(problem: Problem) -> Problem:
+    """Return the task whose motions pass the points exactly: they are motions of the task with zones too.
+
+    Parameters
+    ----------
+    problem : Problem
+
+    Returns
+    -------
+    Problem
+    """
+    return replace(problem, conditions=replace(problem.conditions, tolerance={}, tool_zones={}))

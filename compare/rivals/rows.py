@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import importlib.metadata
 import time
-from collections.abc import Callable, Iterable
+from collections.abc import Callable, Iterable, Sequence
 from dataclasses import dataclass, replace
 from typing import Any
 
@@ -12,14 +12,16 @@ import numpy as np
 
 from compare.interrupts import ctrl_c_stops
 from compare.rivals import RIVALS
-from compare.rivals.isolated import RivalEnding, run_apart
-from compare.rivals.rival import Rival
+from compare.rivals.isolated import Ran, RivalEnding, run_apart
+from compare.rivals.rival import Rival, has_zones, require_askable, without_zones
 from formulations import NoFeasibleMotion, Problem, Trajectory, plan
 from formulations.motion.judgement import Judgement, judge
 from formulations.problem.errors import UnsupportedProblem
 
 OURS = "timebound"
 KEEPS, BREAKS, NO_MOTION, UNSUPPORTED = "keeps all", "breaks", "no motion", "cannot be asked"
+NOT_GIVEN = (UNSUPPORTED, RivalEnding.NOT_RUN.value, RivalEnding.NOT_INSTALLED.value)
+"""Status of a task that a program was not given."""
 _NODES = 8  # of Gauss and Legendre, per piece
 _GAP = 1e-4  # asked of our own bound
 _ROUNDED, _KEPT = 1e-3, 1e-9  # excess over a limit between which it is written as 1 + excess
@@ -54,6 +56,9 @@ class RivalRow:
         All that is broken, by name, with the largest factor of each quantity.
     computation : float or None
         Seconds of the program's own work.
+    exact : bool
+        Whether the task has zones, of which the program knows nothing: it was given the points, and passes
+        them exactly.
     """
 
     problem: str
@@ -75,6 +80,7 @@ class RivalRow:
     mended: float | None = None
     faults: str = ""
     computation: float | None = None
+    exact: bool = False
 
 
 def judged(problem: Problem, motion: Trajectory) -> dict[str, Any]:
@@ -91,16 +97,21 @@ def judged(problem: Problem, motion: Trajectory) -> dict[str, Any]:
         The entries of a row that the check knows.
     """
     found = judge(problem, motion, conditions=problem.conditions)
-    away = np.abs(motion.at(found.motion.passage_times) - problem.waypoints).max()
     return {
         "status": KEEPS if found.feasible else BREAKS,
         "seconds": found.seconds,
         "length": path_length(motion),
-        "deviation": float(away),
+        "deviation": _off_waypoints(found, problem),
         "factor": max((p.factor for p in found.peaks), default=0.0),
         "mended": found.seconds * max(found.stretch, 1.0) if np.isfinite(found.stretch) else None,
         "faults": "; ".join(_faults(found)),
     }
+
+
+def _off_waypoints(found: Judgement, problem: Problem) -> float:
+    """The largest distance of a joint from a waypoint as the motion passes it [rad]."""
+    motion = found.motion
+    return float(np.abs(motion.at(motion.passage_times) - problem.waypoints).max())
 
 
 def _faults(found: Judgement) -> list[str]:
@@ -174,12 +185,16 @@ def path_length(motion: Trajectory) -> float:
     return float(((speed @ weights) * motion.durations / 2.0).sum())
 
 
-def answered(problem: Problem, key: str, version: str, seconds: float, memory: int) -> list[RivalRow]:
+def answered(
+    problem: Problem, zoned: Problem | None, key: str, version: str, seconds: float, memory: int
+) -> list[RivalRow]:
     """Run one program on one task, as a call of the study.
 
     Parameters
     ----------
     problem : Problem
+    zoned : Problem or None
+        The same task with zones, for which the motion of a program that knows none is judged too.
     key : str
         Of ``RIVALS``, or ``OURS``.
     version : str
@@ -192,10 +207,11 @@ def answered(problem: Problem, key: str, version: str, seconds: float, memory: i
     Returns
     -------
     list of RivalRow
-        One row.
+        One row per task.
     """
     if key != OURS:
-        return [run_rival(problem, RIVALS[key], seconds=seconds, memory=memory)]
+        tasks = [problem] if zoned is None else [problem, zoned]
+        return run_rival(tasks, RIVALS[key], seconds=seconds, memory=memory)
     with ctrl_c_stops() as stop:  # the solvers' own code does not hear of Ctrl-C
         row = _ours(problem, seconds, stop)
         if stop():
@@ -203,12 +219,14 @@ def answered(problem: Problem, key: str, version: str, seconds: float, memory: i
     return [row]
 
 
-def run_rival(problem: Problem, rival: Rival, *, seconds: float, memory: int) -> RivalRow:
-    """Run one rival on one task, and judge what it answers.
+def run_rival(tasks: Sequence[Problem], rival: Rival, *, seconds: float, memory: int) -> list[RivalRow]:
+    """Run one rival once, and judge what it answers on each task.
 
     Parameters
     ----------
-    problem : Problem
+    tasks : sequence of Problem
+        They differ in their zones alone. A rival that knows no zones is given the points: its motion, which
+        passes them exactly, is valid within any zones.
     rival : Rival
     seconds : float
         Time limit of its work [s].
@@ -217,31 +235,47 @@ def run_rival(problem: Problem, rival: Rival, *, seconds: float, memory: int) ->
 
     Returns
     -------
-    RivalRow
+    list of RivalRow
+        One row per task.
     """
+    asked = tasks[0] if rival.zones else without_zones(tasks[0])
     called: dict[str, Any] = {
-        "problem": problem.name,
         "rival": rival.key,
         "version": version_of(rival.package),
         "time_limit": seconds,
     }
     if not rival.refusal:
         try:
-            require_askable(problem, rival)
+            require_askable(asked, rival)
         except UnsupportedProblem as reason:
-            return RivalRow(**called, status=UNSUPPORTED, reason=str(reason))
-    ran = run_apart(rival, problem, seconds=seconds, memory=memory)
-    answer = ran.answer
+            called |= {"status": UNSUPPORTED, "reason": str(reason)}
+            return [RivalRow(problem=task.name, **called) for task in tasks]
+    ran = run_apart(rival, asked, seconds=seconds, memory=memory)
     called |= {"reason": ran.reason, "computation": ran.computation}
+    given = ran.ending not in (RivalEnding.NOT_RUN, RivalEnding.NOT_INSTALLED)
+    rows = []
+    for task in tasks:
+        row = RivalRow(problem=task.name, **called | _outcome(task, ran))
+        if given and not rival.zones and has_zones(task):
+            row = replace(row, exact=True)
+            if row.deviation is not None:  # from the points, and not where it enters their zones
+                row = replace(row, deviation=_outcome(asked, ran)["deviation"])
+        rows.append(row)
+    return rows
+
+
+def _outcome(task: Problem, ran: Ran) -> dict[str, Any]:
+    """The entries of a row that follow from an answer."""
+    answer = ran.answer
     if ran.ending is not RivalEnding.ANSWERED or answer is None:
-        return RivalRow(**called, status=ran.ending.value)
-    called |= {"claimed": answer.claimed, "own_bound": answer.bound}
+        return {"status": ran.ending.value}
+    said = {"claimed": answer.claimed, "own_bound": answer.bound}
     if answer.motion is None:
-        return RivalRow(**called, status=NO_MOTION)
-    if answer.motion.dof != problem.dof:
-        words = f"answers {answer.motion.dof} joints of {problem.dof}"
-        return RivalRow(**called | {"reason": words}, status=BREAKS)
-    entries = judged(problem, answer.motion)
+        return {**said, "status": NO_MOTION}
+    if answer.motion.dof != task.dof:
+        words = f"answers {answer.motion.dof} joints of {task.dof}"
+        return {**said, "status": BREAKS, "reason": words}
+    entries = judged(task, answer.motion)
     if (
         answer.claimed is not None
         and abs(answer.claimed - entries["seconds"]) > 1e-6 * entries["seconds"]
@@ -249,31 +283,7 @@ def run_rival(problem: Problem, rival: Rival, *, seconds: float, memory: int) ->
         claim = f"claims {answer.claimed:.6g} s, takes {entries['seconds']:.6g} s"
         entries["faults"] = f"{claim}; {entries['faults']}".removesuffix("; ")
         entries["status"] = BREAKS
-    return RivalRow(**called, **entries)
-
-
-def require_askable(problem: Problem, rival: Rival) -> None:
-    """Refuse a task that a program cannot be asked for.
-
-    Parameters
-    ----------
-    problem : Problem
-    rival : Rival
-
-    Raises
-    ------
-    UnsupportedProblem
-        The message says what cannot be asked for.
-    """
-    if not rival.zones:
-        problem.require_plain(rival.name)
-        return
-    if problem.n_segments > 1 and not problem.conditions.tolerance:
-        raise UnsupportedProblem(
-            f"{rival.name}: passes no inner waypoint exactly; see the task with zones"
-        )
-    plain = replace(problem, conditions=replace(problem.conditions, tolerance={}))
-    plain.require_plain(rival.name)
+    return {**said, **entries}
 
 
 def _ours(problem: Problem, seconds: float, stop: Callable[[], bool]) -> RivalRow:

@@ -9,14 +9,11 @@ from typing import Any
 import numpy as np
 
 from compare.rivals import RIVALS
-from compare.rivals.isolated import RivalEnding
-from compare.rivals.rows import BREAKS, KEEPS, OURS, UNSUPPORTED, RivalRow, answered, version_of
-from compare.rivals.shown import as_text
+from compare.rivals.rows import BREAKS, KEEPS, NOT_GIVEN, OURS, RivalRow, answered, version_of
+from compare.rivals.shown import by_task
+from compare.rivals.terminal import as_text
 from compare.studies.study import Call, Study
 from formulations import Problem
-
-NOT_GIVEN = (UNSUPPORTED, RivalEnding.NOT_RUN.value)
-"""Status of a task that a program was not given."""
 
 
 def with_zones(problem: Problem, zone: float) -> Problem:
@@ -48,8 +45,9 @@ def calls(
 ) -> list[Call]:
     """List the calls of the study: each task with each program, ours first.
 
-    A program that cannot pass a waypoint exactly gets each task without conditions once more, with zones, and
-    so do we: a motion that may cut corners is set beside ours that may cut them as far.
+    Where a program that blends corners is among them, each task without conditions stands there once more, with
+    zones: corners that it may cut, ours may cut as far. The motions of the others, which pass the points
+    exactly, are valid there too. They are run once, and judged for both tasks.
 
     Parameters
     ----------
@@ -68,17 +66,36 @@ def calls(
     list of tuples
         Arguments of ``answered``.
     """
-    cutting = [key for key in rivals if RIVALS[key].zones]
-    found: list[tuple[Problem, str]] = []
+    blending = any(RIVALS[key].zones for key in rivals)
+    found: list[tuple[Problem, Problem | None, str]] = []
     for problem in problems:
-        found += [(problem, key) for key in (OURS, *rivals)]
-        if cutting and problem.conditions.none and problem.n_segments > 1:
+        zoned = None
+        if blending and problem.conditions.none and problem.n_segments > 1:
             zoned = with_zones(problem, zone)
-            found += [(zoned, key) for key in (OURS, *cutting)]
+        for key in (OURS, *rivals):
+            if zoned is not None and (key == OURS or RIVALS[key].zones):
+                found += [(problem, None, key), (zoned, None, key)]
+            else:
+                found.append((problem, zoned, key))
     version = {key: version_of(rival.package) for key, rival in RIVALS.items()} | {
         OURS: version_of(OURS)
     }
-    return [(problem, key, version[key], seconds, memory) for problem, key in found]
+    return [(problem, zoned, key, version[key], seconds, memory) for problem, zoned, key in found]
+
+
+def count_rows(listed: Sequence[Call]) -> int:
+    """Count the rows that calls give.
+
+    Parameters
+    ----------
+    listed : sequence of tuples
+        As ``calls`` returns them.
+
+    Returns
+    -------
+    int
+    """
+    return sum(1 if zoned is None else 2 for _, zoned, *_ in listed)
 
 
 def beside(rows: list[RivalRow]) -> list[RivalRow]:
@@ -92,9 +109,10 @@ def beside(rows: list[RivalRow]) -> list[RivalRow]:
     Returns
     -------
     list of RivalRow
+        Task by task.
     """
     found = []
-    for row in rows:
+    for row in (row for mine in by_task(rows).values() for row in mine):
         mine = [other for other in rows if other.problem == row.problem]
         bound = next((other.bound for other in mine if other.rival == OURS), None)
         kept = [o.seconds for o in mine if o.status == KEEPS and o.seconds is not None]
@@ -119,13 +137,16 @@ def _over(seconds: float | None, least: float | None) -> float | None:
 class RivalSummary:
     """What matters of one program.
 
-    tasks: those that it was given. kept, broken, none: motions that keep all, that break something, and tasks
-    without a motion; tasks that it cannot be asked for are none of these. over: median and largest time over
-    the fastest motion, of motions that keep all; mended: the same of those that break something, once they are
-    slowed down; mendable: how many of them that mends. factor: largest value over a limit. work: median [s].
+    exact: whether it is about the tasks with zones whose points the program passes exactly, or about all
+    others. tasks: those that it was given. kept, broken, none: motions that keep all, that break something,
+    and tasks without a motion; tasks that it was not given are none of these. over: median and largest time
+    over the fastest motion, of motions that keep all; mended: the same of those that break something, once
+    they are slowed down; mendable: how many of them that mends. factor: largest value over a limit.
+    work: median [s].
     """
 
     rival: str
+    exact: bool
     tasks: int
     kept: int
     broken: int
@@ -151,14 +172,20 @@ def summarise(rows: list[RivalRow]) -> list[dict[str, Any]]:
         A ``RivalSummary`` each.
     """
     found = []
-    for key in dict.fromkeys(row.rival for row in rows):
-        mine = [row for row in rows if row.rival == key and row.status not in NOT_GIVEN]
+    groups = dict.fromkeys((row.exact, row.rival) for row in rows)
+    for exact, key in sorted(groups, key=lambda group: group[0]):
+        mine = [
+            row
+            for row in rows
+            if (row.exact, row.rival) == (exact, key) and row.status not in NOT_GIVEN
+        ]
         kept = [r for r in mine if r.status == KEEPS]
         broken = [r for r in mine if r.status == BREAKS]
         mended = [r.mended / r.fastest for r in broken if r.mended is not None and r.fastest]
         work = [r.computation for r in mine if r.computation is not None]
         summary = RivalSummary(
             key,
+            exact,
             len(mine),
             len(kept),
             len(broken),

@@ -1,4 +1,4 @@
-"""Rows of rivals as tables in the terminal and in documents, and as a page."""
+"""Rows of rivals as cells of tables in documents, and as a page."""
 
 from __future__ import annotations
 
@@ -9,7 +9,6 @@ from typing import Any
 from compare.report.frame import CHARTS, environment
 from compare.rivals import RIVALS
 from compare.rivals.rows import KEEPS, OURS, RivalRow, limit_factor
-from compare.screen import table
 
 HEADER = (
     "task", "program", "verdict", "time [s]", "over fastest", "over bound", "slowed down [s]", "worst limit",
@@ -21,6 +20,8 @@ SUMMARY = (
     "slowed down: mends", "slowed down: median", "slowed down: largest", "worst limit", "work: median [s]",
 )  # fmt: skip
 SUMMARY_RIGHT = tuple(range(1, 12))
+EXACTLY = "passes the points exactly"
+"""What is noted of a motion in a task with zones, where the program knows none."""
 
 
 def name_of(key: str) -> str:
@@ -49,24 +50,38 @@ def cells(row: RivalRow) -> list[str]:
     -------
     list of str
     """
-    why = [row.faults] if row.faults else []
-    if row.own_bound is not None and row.rival != OURS:
-        why.append(f"own bound {row.own_bound:.6g} s")
-    why += [row.reason] if row.reason else []
     return [
         row.problem,
         name_of(row.rival),
         row.status,
-        _number(row.seconds, ".4f"),
-        _number(row.over_fastest, ".4f"),
-        _number(row.over_bound, ".4f"),
-        _number(row.mended, ".4f"),
-        "-" if row.factor is None else limit_factor(row.factor),
-        _number(row.computation, ".2f"),
-        _number(row.length, ".3f"),
-        _number(row.deviation, ".1e"),
-        "; ".join(why),
+        number(row.seconds, ".4f"),
+        number(row.over_fastest, ".4f"),
+        number(row.over_bound, ".4f"),
+        number(row.mended, ".4f"),
+        factor_of(row.factor),
+        number(row.computation, ".2f"),
+        number(row.length, ".3f"),
+        number(row.deviation, ".1e"),
+        "; ".join(filter(None, [EXACTLY if row.exact and row.seconds else "", remarks(row)])),
     ]
+
+
+def remarks(row: RivalRow) -> str:
+    """Say what is broken, and what the program says of itself.
+
+    Parameters
+    ----------
+    row : RivalRow
+
+    Returns
+    -------
+    str
+        Empty where there is nothing to be said.
+    """
+    why = [row.faults] if row.faults else []
+    if row.own_bound is not None and row.rival != OURS:
+        why.append(f"own bound {row.own_bound:.6g} s")
+    return "; ".join([*why, row.reason] if row.reason else why)
 
 
 def summary_cells(entry: dict[str, Any]) -> list[str]:
@@ -85,34 +100,31 @@ def summary_cells(entry: dict[str, Any]) -> list[str]:
     return [
         name_of(entry["rival"]),
         *(str(entry[key]) for key in ("tasks", "kept", "broken", "none")),
-        *(_number(value, ".4f") for value in over),
+        *(number(value, ".4f") for value in over),
         str(entry["mendable"]),
-        *(_number(value, ".4f") for value in mended),
-        "-" if entry["factor"] is None else limit_factor(entry["factor"]),
-        _number(entry["work"], ".2f"),
+        *(number(value, ".4f") for value in mended),
+        factor_of(entry["factor"]),
+        number(entry["work"], ".2f"),
     ]
 
 
-def as_text(rows: Sequence[RivalRow], summary: Sequence[dict[str, Any]]) -> str:
-    """Set a table of rows per task, and then a line per program.
+def summary_tables(summary: Sequence[dict[str, Any]]) -> list[tuple[str, list[list[str]]]]:
+    """Part the summary into tables: tasks as they stand, and tasks with zones whose points are passed exactly.
 
     Parameters
     ----------
-    rows : sequence of RivalRow
     summary : sequence of dict
         A ``RivalSummary`` each, as plain data.
 
     Returns
     -------
-    str
+    list of (str, list of list of str)
+        Title and rows of each.
     """
-    right = [index - 1 for index in RIGHT]
-    parts = []
-    for name, mine in by_task(rows).items():
-        shown = table(HEADER[1:], [cells(row)[1:] for row in mine], right=right)
-        parts.append(f"{name}\n{shown}")
-    programs = table(SUMMARY, [summary_cells(entry) for entry in summary], right=SUMMARY_RIGHT)
-    return "\n\n".join([*parts, f"all tasks\n{programs}"])
+    titles = {False: "Tasks as they stand", True: "Tasks with zones, points passed exactly"}
+    tables = ((title, [summary_cells(one) for one in summary if one["exact"] == exact])
+              for exact, title in titles.items())  # fmt: skip
+    return [(title, rows) for title, rows in tables if rows]
 
 
 def by_task(rows: Sequence[RivalRow]) -> dict[str, list[RivalRow]]:
@@ -155,7 +167,7 @@ def as_page(rows: Sequence[RivalRow], summary: Sequence[dict[str, Any]]) -> str:
         "header": HEADER[1:],
         "left": [index - 1 for index in range(1, len(HEADER)) if index not in RIGHT],
         "summary_header": SUMMARY,
-        "summary": [summary_cells(entry) for entry in summary],
+        "summaries": summary_tables(summary),
         "rivals": list(RIVALS.values()),
         "seconds": sorted({row.time_limit for row in rows}),
         "versions": {row.rival: row.version for row in rows if row.version},
@@ -199,5 +211,33 @@ def chart(rows: Sequence[RivalRow]) -> dict[str, Any]:
     }
 
 
-def _number(value: float | None, form: str) -> str:
+def number(value: float | None, form: str) -> str:
+    """Write a number that may be missing.
+
+    Parameters
+    ----------
+    value : float or None
+    form : str
+        As after the colon of a format field.
+
+    Returns
+    -------
+    str
+        ``-`` where it is missing.
+    """
     return "-" if value is None else f"{value:{form}}"
+
+
+def factor_of(factor: float | None) -> str:
+    """Write the largest value over a limit, which may be missing.
+
+    Parameters
+    ----------
+    factor : float or None
+
+    Returns
+    -------
+    str
+        As ``limit_factor`` does; ``-`` where it is missing.
+    """
+    return "-" if factor is None else limit_factor(factor)

@@ -13,9 +13,9 @@ from typing import Any
 
 import numpy as np
 
-from compare.rivals.rows import BREAKS, KEEPS, OURS, RivalRow
-from compare.rivals.run_study import NOT_GIVEN, summarise
-from compare.rivals.shown import HEADER, RIGHT, SUMMARY, SUMMARY_RIGHT, cells, name_of, summary_cells
+from compare.rivals.rows import BREAKS, KEEPS, NOT_GIVEN, OURS, RivalRow
+from compare.rivals.run_study import summarise
+from compare.rivals.shown import HEADER, RIGHT, SUMMARY, SUMMARY_RIGHT, cells, name_of, summary_tables
 
 DOCS = Path(__file__).parents[1]
 PAGE, ROWS = DOCS / "howto" / "rivals.md", DOCS / "static" / "rivals.json"
@@ -43,6 +43,7 @@ def section(rows: Sequence[RivalRow], machine: str) -> str:
         Markdown.
     """
     given = [row for row in rows if row.status not in NOT_GIVEN]
+    own = [row for row in given if not row.exact]
     limit = {row.time_limit for row in rows}
     versions = sorted({f"{row.rival.split('_')[0]} {row.version}" for row in rows if row.version})
     tasks = dict.fromkeys(row.problem for row in rows)
@@ -56,13 +57,16 @@ def section(rows: Sequence[RivalRow], machine: str) -> str:
     return "\n".join(
         [
             opened,
-            *(f"- {line}" for line in [*_ours(rows), *_others(given), *_scip(rows)]),
-            "\n### By program\n",
-            _table(SUMMARY, [summary_cells(entry) for entry in summary], SUMMARY_RIGHT),
+            *(f"- {line}" for line in [*_ours(rows), *_others(own), *_scip(own), *_exactly(given)]),
+            "\n### By program",
+            *(
+                f"\n{title}:\n\n{_table(SUMMARY, of, SUMMARY_RIGHT)}"
+                for title, of in summary_tables(summary)
+            ),
             "\n### SCIP beside the proof\n",
-            _beside_scip(rows),
-            "\n### Blends beside the same zones\n",
-            _beside_blends(rows),
+            _beside_scip(own),
+            "\n### In the same zones\n",
+            _in_zones(rows),
             "\n### Every row\n",
             _table(HEADER, [cells(row) for row in given], RIGHT),
         ]
@@ -170,29 +174,45 @@ def _beside_scip(rows: Sequence[RivalRow]) -> str:
     return _table(header, made, range(1, 9))
 
 
-def _beside_blends(rows: Sequence[RivalRow]) -> str:
+def _exactly(rows: Sequence[RivalRow]) -> list[str]:
+    """How far programs that pass the points exactly stay above the fastest motion within the zones."""
+    words = []
+    for key in dict.fromkeys(row.rival for row in rows if row.exact):
+        mine = [row for row in rows if row.rival == key and row.exact]
+        kept = [row.over_fastest for row in mine if row.status == KEEPS and row.over_fastest]
+        ends = dict.fromkeys(_percent(one) for one in (min(kept), max(kept))) if kept else {}
+        far = f", {' to '.join(ends)}" if ends else ""
+        words.append(f"{name_of(key)} ({len(kept)} of {len(mine)}{far})")
+    if not words:
+        return []
+    return [
+        "In the tasks with zones, motions that pass the points exactly take longer than the fastest one within "
+        f"the zones. Of those that keep all: {_joined(words)}."
+    ]
+
+
+def _in_zones(rows: Sequence[RivalRow]) -> str:
+    """Our motion within the zones beside blends, and beside the fastest motions through the points."""
     found = {(row.problem, row.rival): row for row in rows}
     header = (
-        "task",
-        "justblend, stops [s]",
-        "justblend, blends [s]",
-        "timebound, same zones [s]",
-        "blends over ours",
-    )
+        "task", "timebound, zones [s]", "justblend, blends [s]", "over ours", "timebound, points [s]",
+        "over zones", "fastest other, points [s]", "over zones", "program",
+    )  # fmt: skip
     made = []
-    for (task, rival), row in found.items():
-        if rival != "justblend_blends" or row.seconds is None:
+    for (task, rival), blend in found.items():
+        if rival != "justblend_blends" or blend.status in NOT_GIVEN:
             continue
-        stops, mine = found.get((task.partition(", zones")[0], "justblend_stops")), found[task, OURS]
-        seconds = [None if one is None else one.seconds for one in (stops, row, mine)]
-        made.append(
-            [
-                task,
-                *("-" if t is None else f"{t:.4f}" for t in seconds),
-                f"{row.seconds / mine.seconds:.4f}",
-            ]
-        )
-    return _table(header, made, range(1, 5))
+        name, mine = task.partition(", zones")[0], found[task, OURS]
+        others = [row for row in rows if row.problem == task and row.exact and row.status == KEEPS]
+        best = min(others, key=lambda row: row.seconds or np.inf, default=None)
+        cells_ = [f"{mine.seconds:.4f}"]
+        for row in (blend, found.get((name, OURS)), best):
+            seconds = None if row is None else row.seconds
+            cells_ += (
+                ["-", "-"] if seconds is None else [f"{seconds:.4f}", f"{seconds / mine.seconds:.4f}"]
+            )
+        made.append([name, *cells_, "-" if best is None else name_of(best.rival)])
+    return _table(header, made, range(1, 8))
 
 
 def _spread(ratios: Sequence[float]) -> str:
@@ -230,7 +250,10 @@ def write(data: dict[str, Any]) -> None:
         What ``timebound rivals --json`` has written.
     """
     rows = ",\n".join(
-        json.dumps({key: value for key, value in row.items() if value is not None}, ensure_ascii=False)
+        json.dumps(
+            {key: value for key, value in row.items() if value is not None and value is not False},
+            ensure_ascii=False,
+        )
         for row in data["rows"]
     )
     machine = json.dumps(data["machine"])

@@ -6,19 +6,20 @@ choice of motions, such as a zone, is asked the other way round: what it saves.
 
 from __future__ import annotations
 
-from collections.abc import Callable
+from collections.abc import Callable, Iterable
 from dataclasses import dataclass, replace
 from typing import Any, NamedTuple
 
 import numpy as np
 
-from formulations.costs.left_out import left_out
+from formulations.costs.left_out import TaskWithout, left_out
 from formulations.deadlines import NEVER, Deadline
 from formulations.dynamics import torque_peaks
 from formulations.optima.free_form import FreeForm, SearchStatus, free_form, proved_motion
 from formulations.problem.conditions import Conditions
 from formulations.problem.errors import InputError, NoFeasibleMotion, NotFoundInTime
 from formulations.problem.problem import Problem
+from formulations.proofs.status import BoundStatus
 
 _GAP, _PROOF = 1e-4, 20.0  # of each motion and its bound; s for one bound
 _LOCAL = 1e-3  # gap of motions under limits on tool or motors, whose search takes long
@@ -28,6 +29,9 @@ _NOT_NESTED = ("segment limits", "cycle")
 _TORQUES = ("torque", "joint torque")  # the bound knows none, so that it is the same without them
 _IDLE = 0.99  # of its limit: a torque that stays below it does not hold a motion up
 _NOTHING = 1e-5  # s
+_LONGER = (
+    2.0  # times the search of the motion itself: so much a demand has before others have their share
+)
 _CUT_SHORT = (SearchStatus.TIME_LIMIT, SearchStatus.INTERRUPTED)
 
 
@@ -47,23 +51,28 @@ class DemandCost:
         Waypoint, segment or joint that it is about, from 0.
     saves : bool
         Whether it lets motions be faster, so that the seconds are saved; else they are lost.
-    seconds : float [s]
-        Difference of the two motions that were found.
+    seconds : float or None [s]
+        Difference of the two motions that were found; None where it is not known.
     least, greatest : float [s]
         What is proved: the difference of the two least times of verified motions lies between these.
+    unknown : str
+        Why the cost is not known; empty where it is.
     """
 
     demand: str
     what: str
     place: int | None
     saves: bool
-    seconds: float
+    seconds: float | None
     least: float
     greatest: float
+    unknown: str = ""
 
     @property
     def line(self) -> str:
         """The cost in one sentence."""
+        if self.seconds is None:
+            return f"{self.what}: not known, {self.unknown}"
         verb = ("save" if self.saves else "cost") + ("" if self.what.startswith(_MANY) else "s")
         most = _digits(self.greatest, up=True)
         found = "nothing" if abs(self.seconds) < _NOTHING else f"{self.seconds:.4g} s"
@@ -76,20 +85,6 @@ class DemandCost:
         place = None if self.place is None else self.place + 1
         greatest = self.greatest if np.isfinite(self.greatest) else None
         return {**vars(self), "place": place, "greatest": greatest}
-
-
-def count_demands(problem: Problem) -> int:
-    """Count the demands of a problem that ``demand_costs`` knows how to leave out.
-
-    Parameters
-    ----------
-    problem : Problem
-
-    Returns
-    -------
-    int
-    """
-    return sum(1 for _ in left_out(problem))
 
 
 class SolvedTask(NamedTuple):
@@ -118,6 +113,7 @@ def demand_costs(
     conditions: Conditions | None = None,
     *,
     found: FreeForm | None = None,
+    proof: FreeFormBound | None = None,
     deadline: Deadline = NEVER,
     progress: Callable[[str], None] | None = None,
 ) -> tuple[DemandCost, ...]:
@@ -130,16 +126,19 @@ def demand_costs(
         In place of the problem's own.
     found : FreeForm, optional
         The motion under all demands; searched for if left out.
+    proof : FreeFormBound, optional
+        What is proved of it. It is proved again where that bound went no further than it was asked to.
     deadline : Deadline
-        Demands that are not solved without when it is over are left out.
+        Each demand has half of the time that is left, or twice as long as the motion itself took; the last
+        one all that is left.
     progress : callable, optional
         Called with each demand in words before it is left out.
 
     Returns
     -------
     tuple of DemandCost
-        Largest first. Where the total time is given, the total alone: under it no other demand
-        changes the time.
+        One per demand, largest first; those that are not known, with the reason, last. Where the total time
+        is given, the total alone: under it no other demand changes the time.
 
     Raises
     ------
@@ -167,41 +166,75 @@ def demand_costs(
     asked = problem.conditions if conditions is None else conditions
     problem = replace(problem, conditions=asked)
     demands = list(left_out(problem))
-    if not demands or deadline.over:
+    if not demands:
         return ()
+    if deadline.over:
+        return _all_unknown(demands, _ended(deadline))
     say = progress or (lambda what: None)
-    found = found or _fastest(problem, deadline)
-    whole = solved(problem, deadline, found)
+    found = found or _fastest(problem, deadline.within(deadline.left / 2.0))
+    whole = solved(
+        problem,
+        deadline.within(deadline.left / 2.0),
+        found,
+        bound=None if proof is None or _could_be_closer(proof) else _with_times(problem, proof),
+    )
     if whole is None:
-        return ()
-    idle = _idle_motors(problem, found)
+        return _all_unknown(demands, f"{_ended(deadline)} before the motion itself was found")
+    idle, least = _idle_motors(problem, found), _LONGER * found.runtime
     costs = []
     for one in demands:
+        part = deadline if one is demands[-1] else deadline.within(max(deadline.left / 2.0, least))
         if deadline.over:
-            break
+            costs.append(_unknown(one, _ended(deadline)))
+            continue
         say(one.what)
         try:
             other = solved(
                 replace(one.problem, conditions=one.conditions),
-                deadline,
+                part,
                 found if one.demand == "joint torque" and one.place in idle else None,
                 bound=whole.bound if one.demand in _TORQUES else None,
             )
         except NotFoundInTime:
-            break
-        except (InputError, NoFeasibleMotion):
-            continue  # nothing can be compared: without it the task is none, or no motion is found
-        if other is None:
-            break
-        faster, slower = (whole, other) if one.saves else (other, whole)
-        nested = one.demand not in _NOT_NESTED
-        if nested:
-            faster = faster._replace(motion=min(faster.motion, slower.motion))
-            slower = slower._replace(bound=max(slower.bound, faster.bound))
-        seconds, least, most = slower.over(faster)
-        least = max(least, 0.0) if nested else least
-        costs.append(DemandCost(one.demand, one.what, one.place, one.saves, seconds, least, most))
-    return tuple(sorted(costs, key=lambda cost: -cost.seconds))
+            other = None
+        except (
+            InputError,
+            NoFeasibleMotion,
+        ) as reason:  # without it the task is none, or has no motion
+            costs.append(_unknown(one, f"nothing can be compared: {reason}"))
+            continue
+        costs.append(
+            _unknown(one, _ended(deadline, "its share of the time"))
+            if other is None
+            else _compared(one, whole, other)
+        )
+    return tuple(sorted(costs, key=lambda cost: np.inf if cost.seconds is None else -cost.seconds))
+
+
+def _compared(one: TaskWithout, whole: SolvedTask, other: SolvedTask) -> DemandCost:
+    """What a demand costs, from the task with it and without it."""
+    faster, slower = (whole, other) if one.saves else (other, whole)
+    nested = one.demand not in _NOT_NESTED
+    if nested:
+        faster = faster._replace(motion=min(faster.motion, slower.motion))
+        slower = slower._replace(bound=max(slower.bound, faster.bound))
+    seconds, least, most = slower.over(faster)
+    least = max(least, 0.0) if nested else least
+    return DemandCost(one.demand, one.what, one.place, one.saves, seconds, least, most)
+
+
+def _unknown(one: TaskWithout, why: str) -> DemandCost:
+    return DemandCost(one.demand, one.what, one.place, one.saves, None, 0.0, np.inf, why)
+
+
+def _all_unknown(demands: Iterable[TaskWithout], why: str) -> tuple[DemandCost, ...]:
+    return tuple(_unknown(one, why) for one in demands)
+
+
+def _ended(deadline: Deadline, part: str = "the time") -> str:
+    if deadline.interrupted:
+        return "it was interrupted"
+    return f"{'the time' if deadline.over else part} was over"
 
 
 def solved(
@@ -239,8 +272,18 @@ def solved(
         time_limit=deadline.within(_PROOF).left,
         stop=deadline.stop,
     )
+    return SolvedTask(motion.seconds, _with_times(problem, proof))
+
+
+def _with_times(problem: Problem, proof: FreeFormBound) -> float:
+    """What no verified motion beats [s]: what is proved, and the total time where it is given."""
     fixed = problem.conditions.times(problem).get(problem.n_segments)
-    return SolvedTask(motion.seconds, max(proof.least_verified, fixed or 0.0))
+    return max(proof.least_verified, fixed or 0.0)
+
+
+def _could_be_closer(proof: FreeFormBound) -> bool:
+    """Whether a proof ended at a gap that was asked for, above the one of costs."""
+    return proof.status is BoundStatus.PROVED and (proof.gap or 0.0) > _GAP
 
 
 def _fastest(problem: Problem, deadline: Deadline) -> FreeForm:

@@ -54,8 +54,7 @@ class Peak:
     angle: str = "rad"
 
     def __str__(self) -> str:
-        unit = self.unit_in(self.angle)
-        scale = float(factors([self.unit], self.angle)[0])
+        unit, scale = unit_of(self.quantity, self.unit, self.angle)
         return (
             f"{self.quantity} of joint {self.name or self.joint + 1} in segment {self.segment + 1} at "
             f"{self.time:.4f} s: {self.value / scale:.6g} {unit}, limit {self.limit / scale:.6g} {unit}, "

@@ -33,11 +33,28 @@ def test_the_run_is_whole(maker: dict[str, Any]) -> None:
     assert len(tasks) == 11
     for task in tasks:
         assert {row.rival for row in rows if row.problem == task} == {"timebound", *RIVALS}
-        zoned = {row.rival for row in rows if row.problem.startswith(f"{task}, zones")}
-        assert zoned == {"timebound", "justblend_blends"}
+        zoned = [row for row in rows if row.problem.startswith(f"{task}, zones")]
+        assert {row.rival for row in zoned} == {"timebound", *RIVALS}
+        refused = {key for key, rival in RIVALS.items() if rival.refusal}
+        others = {row.rival for row in zoned if not row.exact}
+        assert others == {"timebound", "justblend_blends", *refused}
+        assert all((row.deviation or 0.0) < 1e-9 for row in zoned if row.exact)
     assert beside(rows) == rows
     for row in rows:
         assert row.status == "keeps all" or row.faults or row.reason, row
+
+
+def test_programs_that_are_given_the_same_points_answer_the_same(maker: dict[str, Any]) -> None:
+    """Those without a limit of time in their work, in the task with zones and in the one without."""
+    found = {(row.problem, row.rival): row for row in maker["stored"]()[0]}
+    compared = 0
+    for (task, rival), row in found.items():
+        other = found.get((f"{task}, zones of 0.1 rad", rival))
+        if other is not None and other.exact and rival not in ("drake_spline", "scip"):
+            assert (row.status, row.faults) == (other.status, other.faults)
+            assert (row.seconds or 0.0) == pytest.approx(other.seconds or 0.0, rel=1e-9)
+            compared += 1
+    assert compared == 11 * 7
 
 
 def test_the_page_lists_the_programs_of_the_registry(maker: dict[str, Any]) -> None:

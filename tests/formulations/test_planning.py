@@ -4,12 +4,14 @@ from __future__ import annotations
 
 import time
 from pathlib import Path
+from typing import Any
 
 import matplotlib as mpl
 import numpy as np
 import pytest
 
 import formulations as f
+from formulations import planning
 
 mpl.use("Agg")
 
@@ -76,6 +78,43 @@ def test_the_bound_is_that_of_the_conditions_without_their_total_time() -> None:
     assert fast.bound == pytest.approx(1.5, rel=1e-6)
     slow = f.plan(problem, conditions=f.Conditions(total=3.0))
     assert slow.gap == pytest.approx(0.5, abs=1e-3)
+
+
+@pytest.mark.parametrize(
+    ("limit", "bound", "motion"),
+    [(8.0, True, 6.0), (200.0, True, 180.0), (8.0, False, 8.0), (None, True, None)],
+)
+def test_a_time_limit_keeps_a_share_for_the_bound(
+    monkeypatch: pytest.MonkeyPatch, limit: float | None, bound: bool, motion: float | None
+) -> None:
+    """A quarter, or the 20 s that a bound of few segments takes at most; the rest is the motion's."""
+    found, given = planning.free_form, []
+
+    def searched(*arguments: Any, **options: Any) -> Any:
+        given.append(options["time_limit"])
+        return found(*arguments, **options)
+
+    monkeypatch.setattr(planning, "free_form", searched)
+    f.plan(
+        f.Problem([[0.0], [1.0]], {"velocity": 1.0, "acceleration": 1.0}), time_limit=limit, bound=bound
+    )
+    assert given == [motion]
+
+
+def test_a_search_that_uses_its_time_up_leaves_a_bound(monkeypatch: pytest.MonkeyPatch) -> None:
+    problem = f.load("sr4c")
+    found = planning.free_form
+
+    def slow(*arguments: Any, **options: Any) -> Any:
+        begun = time.perf_counter()
+        answer = found(*arguments, **options)
+        time.sleep(max(options["time_limit"] - (time.perf_counter() - begun), 0.0))
+        return answer
+
+    monkeypatch.setattr(planning, "free_form", slow)
+    motion = f.plan(problem, time_limit=8.0)
+    assert motion.gap is not None
+    assert motion.gap < 1e-3
 
 
 def test_a_time_limit_and_a_stop_end_the_search_with_a_verified_motion() -> None:

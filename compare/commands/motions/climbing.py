@@ -5,17 +5,23 @@ from __future__ import annotations
 import sys
 from collections.abc import Callable
 from dataclasses import replace
+from math import isinf
 from typing import Any
 
 from formulations import InputError, Ladder, Problem, ladder
 from formulations.climb import RungResult
 from formulations.costs.demand_costs import demand_costs
+from formulations.costs.left_out import left_out
 from formulations.deadlines import Deadline
 from formulations.diagnosis import Diagnosis, diagnose
 from formulations.rungs import LARGE, usual_rungs, with_needs
 from formulations.rungs import without as leave_out
 
-_COSTS = 60.0  # s for what the demands cost: each of many takes as long as the motion itself
+_COSTS = (
+    60.0  # s for what the demands cost where no time limit is given: each takes as long as the motion
+)
+_LADDER = 0.75  # of a time limit for the rungs of a problem with demands; the costs have the rest
+_BEFORE_LIMITS = 2.0 / 3.0  # of what is left, for the costs where limits are to be raised after them
 
 
 def chosen_rungs(
@@ -67,7 +73,8 @@ def climb(
     rungs : tuple of str
         Keys of ``RUNGS``.
     deadline : Deadline
-        The climb ends when it is over, with what is known.
+        The climb ends when it is over, with what is known. Under demands the rungs have three quarters of it,
+        so that something is left for what the demands cost; without an end, these costs take 60 s at most.
     stage : callable
         Called with the name of each stage as it begins.
     **options
@@ -77,29 +84,39 @@ def climb(
     -------
     Ladder
     Diagnosis or None
-        What limits the fastest motion, and what each demand costs; None where there is no motion, or where
-        the time was over. No limit holds the smoothest motion in a given time up.
+        What limits the fastest motion, and what each demand costs, or why that is not known; None where there
+        is no motion, or no demand and no time. No limit holds the smoothest motion in a given time up.
     """
+    rungs_end = deadline
+    if next(left_out(problem), None) is not None:
+        rungs_end = deadline.within(_LADDER * deadline.left)
     answer = ladder(
         problem,
         rungs=rungs,
-        time_limit=deadline.left,
+        time_limit=rungs_end.left,
         stop=deadline.stop,
         progress=stage,
         finished=lambda result: print(_line(problem.name, result), file=sys.stderr, flush=True),
         **options,
     )
-    if answer.free_form is None or deadline.over:
+    if answer.free_form is None:
         return answer, None
+    if isinf(deadline.end):
+        costs_end = deadline.within(_COSTS)
+    else:  # without sensitivities no limit is known to hold the motion up
+        share = 1.0 if answer.free_form.sensitivity is None else _BEFORE_LIMITS
+        costs_end = deadline.within(share * deadline.left)
     costs = demand_costs(
         problem,
         found=answer.free_form,
-        deadline=deadline.within(_COSTS),
+        proof=answer.free_form_bound,
+        deadline=costs_end,
         progress=lambda what: stage(f"what a motion takes without {what}"),
     )
-    if problem.conditions.total is not None:
-        seconds = answer.free_form.seconds
-        return answer, Diagnosis(seconds, (), (), seconds, problem.names, costs)
+    seconds = answer.free_form.seconds
+    if deadline.over or problem.conditions.total is not None:
+        known = Diagnosis(seconds, (), (), seconds, problem.names, costs)
+        return answer, known if costs else None
     stage("what limits the fastest motion")
     return answer, replace(diagnose(problem, answer.free_form, deadline=deadline), costs=costs)
 

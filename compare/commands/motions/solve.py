@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import sys
+from collections.abc import Sequence
 from typing import Annotated, Any
 
 from cyclopts import Parameter
@@ -27,7 +28,7 @@ from compare.interrupts import ctrl_c_stops
 from compare.report.asked_words import sentences
 from compare.screen import show, stages, table
 from formulations import RUNGS, InputError, Ladder, Problem
-from formulations.costs.demand_costs import count_demands
+from formulations.costs.demand_costs import DemandCost
 from formulations.deadlines import Deadline
 from formulations.optima.at_rate.export import check_export, export_motion
 from formulations.problem.toml_file.plain_conditions import asked_as_json
@@ -57,8 +58,10 @@ def solve(
 ) -> int:
     """Find every bound of one problem: what no motion can beat, and the best motions known.
 
-    The gap is the one aimed at between the fastest motion, free_form, and the bound on every motion,
-    free_form_lower.
+    The rungs are listed from the shortest time to the longest. The gap is that between the fastest motion,
+    free_form, and the bound on every motion, free_form_lower. Then it says which limits hold the motion up,
+    and what each condition costs or saves: it solves the problem again without it. For that it takes 60 s at
+    most, or what --time-limit leaves, a quarter of it at least; what was not computed is named.
 
     Parameters
     ----------
@@ -94,12 +97,8 @@ def solve(
     ]
     if held is not None and held.holds:
         text += ["\nwhat limits the fastest motion", *(f"  {line}" for line in held.lines()[:_LINES])]
-    if held is not None and (demands := count_demands(problem)):
-        text += ["\nwhat each demand costs", *(f"  {cost.line}" for cost in held.costs)]
-        if (known := len(held.costs)) < demands:
-            text.append(
-                f"  known of {known} of {demands}: time ended the search, or none is to be compared"
-            )
+    if held is not None and held.costs:
+        text += ["\nwhat each demand costs", *(f"  {line}" for line in _costs(held.costs))]
     diagnosis = None if held is None else held.to_json()
     show("\n".join(text), {**answer.to_json(), **asked_as_json(problem), "diagnosis": diagnosis}, json)
     say = sys.stderr if json == "-" else sys.stdout
@@ -167,6 +166,21 @@ def _asked(problem: Problem) -> list[str]:
         said.append("Its limits differ between the directions.")
     more = [f"and {len(said) - _LINES} demands more"] if len(said) > _LINES else []
     return ["asked for:", *(f"  {line}" for line in [*said[:_LINES], *more])] if said else []
+
+
+def _costs(costs: Sequence[DemandCost]) -> list[str]:
+    """What each demand costs, and which costs are not known, by reason."""
+    lines = [cost.line for cost in costs if cost.seconds is not None]
+    unknown: dict[str, list[str]] = {}
+    for cost in costs:
+        if cost.seconds is None:
+            unknown.setdefault(cost.unknown, []).append(cost.what)
+    for why, whats in unknown.items():
+        more = "; a greater --time-limit computes more" if "was over" in why else ""
+        lines.append(f"not computed, {why}{more}:")
+        lines += [f"  {what}" for what in whats[:_LINES]]
+        lines += [f"  and {len(whats) - _LINES} more"] if len(whats) > _LINES else []
+    return lines
 
 
 def _export(path: str, problem: Problem, answer: Ladder, rate: float | None) -> str:

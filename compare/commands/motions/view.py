@@ -28,11 +28,12 @@ from compare.report.view_page import view_page
 from compare.report.viewed import Viewed
 from compare.screen import stages
 from formulations import Conditions, NoFeasibleMotion, Problem, plan
-from formulations.assessment import Assessment, beside
+from formulations.assessment import beside
 from formulations.deadlines import Deadline
 from formulations.motion.files.motion_file import read_points_or_pieces
 from formulations.motion.judgement import WAYPOINT_TOLERANCE, judge
 
+_PLANNED = 0.75  # of a time limit for motion and bound under conditions; the ladder has the rest
 _LONGEST, _SHOWN = 80, 40  # characters of the name of a page, and of that of a motion on it
 
 
@@ -102,7 +103,7 @@ def view(
                 planned = plan(
                     problem,
                     gap=gap,
-                    time_limit=deadline.left,
+                    time_limit=None if time_limit is None else _PLANNED * time_limit,
                     stop=stop,
                     progress=stage,
                 )
@@ -116,8 +117,12 @@ def view(
     if not conditions.none:
         bound = None if planned is None else planned.proof
     given = None if judged is None else beside(problem, judged, bound)
+    failed = bool(remarks)
     if why := unsolved(answer):
-        remarks.append(f"No motion was found: {why}.")
+        failed = failed or conditions.none
+        remarks.append(
+            f"No motion was found{'' if conditions.none else ' without the conditions'}: {why}."
+        )
     if interrupted:
         remarks.append("This was interrupted: the page shows what was known until then.")
     page = view_page(
@@ -138,16 +143,11 @@ def view(
         print(f"no browser was found; open {path} in one", file=sys.stderr)
     if interrupted:
         return INTERRUPTED
-    return _code(problem, given, remarks)
-
-
-def _code(problem: Problem, given: Assessment | None, remarks: list[str]) -> int:
-    """The exit code of what was found."""
     if given is not None:
         return DONE if given.judgement.feasible else BROKEN
     for remark in remarks:
-        print(f"error: {problem.name}: {remark}", file=sys.stderr)
-    return BAD_INPUT if remarks else DONE
+        print(f"{'error: ' * failed}{problem.name}: {remark}", file=sys.stderr)
+    return BAD_INPUT if failed else DONE
 
 
 def _short(name: str) -> str:

@@ -19,13 +19,17 @@ def condition_gaps(
     resume: Resume = False,
     json: Json = None,
 ) -> int:
-    """Find motions under each kind of condition on random problems, and prove how near they are.
+    """Find motions under each kind of condition on random problems, and prove how near they are to the fastest.
+
+    Nine kinds: zones, windows, least times, waits, cycles, given ends, free ends, limits of a segment, limits
+    that differ by direction. The gap is the time of the motion over the proved bound, minus 1; certificates
+    are proved again by the checker. 100 of each kind took 6.5 minutes on two idle cores.
 
     Parameters
     ----------
     count
-        Random problems of each condition.
+        Random problems of each kind.
     out
-        Folder for the rows.
+        Folder for the rows: DIR/condition_gaps.csv and .json.
     """
     return in_workers(study.STUDY, study.calls(count), out=out, jobs=jobs, resume=resume, json=json)

@@ -40,18 +40,20 @@ def rivals(
 ) -> int:
     """Run other programs on the same tasks, and judge every motion by the same check.
 
-    Each runs in a process of its own; one that is missing, crashes or hangs has a row that says so. Ctrl-C
-    ends the run and shows the rows that are finished; --resume goes on from there.
+    Each runs in a process of its own; one that is missing, crashes or hangs is said to. Ctrl-C ends the run
+    and shows the rows that are finished; --resume goes on from there. A program that knows no zones is given
+    the points of a task with zones: its motion passes them exactly, which is valid there too, and is marked.
+    --json, --page and DIR/rivals.csv have more columns than the terminal.
 
     Parameters
     ----------
     random
-        So many random problems of two real arms too; without FILE, these alone.
+        So many random problems of two real arms (panda, xarm6) too; without FILE, these alone.
     tolerance
-        Programs that blend corners, and we, get each task once more, with zones of this size at its
-        inner waypoints.
+        Where a program that blends corners is run, each task is given once more, with zones of this size at
+        its inner waypoints: how far each joint may pass them [rad].
     time_limit
-        Seconds of each program on each task.
+        Seconds that each program has for each task.
     memory
         GB that each program may hold (on Linux).
     page
@@ -75,8 +77,9 @@ def rivals(
         found = run(study.STUDY, listed_calls, folder=folder, resume=resume)
     except KeyboardInterrupt:
         found, code = finished(study.STUDY, listed_calls, folder), INTERRUPTED
-        left = len(listed_calls) - len(found.rows)
-        print(f"interrupted: {left} of {len(listed_calls)} rows are left for --resume", file=sys.stderr)
+        rows = study.count_rows(listed_calls)
+        left = rows - len(found.rows)
+        print(f"interrupted: {left} of {rows} rows are left for --resume", file=sys.stderr)
     show(found.as_text(), found.to_json(), json)
     if page is not None:
         write_text(page, as_page(found.rows, found.summary))

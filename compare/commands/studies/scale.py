@@ -40,12 +40,12 @@ def scale(
     step: Annotated[float, Parameter(metavar="RAD", validator=positive)] = 2.5,
     seed: Seed = 0,
     gap: Gap = 1e-3,
-    time_limit: Annotated[float, Parameter(metavar="S", validator=positive)] = 600.0,
+    time_limit: Annotated[float, Parameter(metavar="SECONDS", validator=positive)] = 600.0,
     out: Annotated[str, Parameter(metavar="DIR")] = "report",
     resume: Resume = False,
     json: Json = None,
 ) -> int:
-    """Plan and prove random problems with more and more waypoints: time, gap and memory of each.
+    """Plan and prove random problems with more and more waypoints: the time, gap and memory that each takes.
 
     One problem is solved at a time, in a process of its own, as times and memory are measured. Files:
     DIR/scale.csv, scale.json, figures/scale.svg.
@@ -57,9 +57,9 @@ def scale(
     counts
         Numbers of waypoints.
     step
-        Longest step of a joint between two waypoints.
+        Longest step of a joint between two waypoints [rad].
     time_limit
-        Of each proof.
+        Seconds that each proof has; the search for a motion has no limit.
     out
         Folder of the files.
     """

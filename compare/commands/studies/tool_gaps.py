@@ -20,16 +20,19 @@ def tool_gaps(
     resume: Resume = False,
     json: Json = None,
 ) -> int:
-    """Find motions of a UR5 under a limit of the tool's speed, and prove how near they are.
+    """Find motions of a UR5 under a limit of the tool's speed, and prove how near they are to the fastest.
+
+    The gap is the time of the motion over the proved bound, minus 1. The bound is not tight under such limits:
+    gaps of 4 to 26 % are usual.
 
     Parameters
     ----------
     count
         Random problems.
     time_limit
-        For each search; the best motion so far counts.
+        Seconds that each search has, no limit if left out; the best motion until then counts.
     out
-        Folder for the rows.
+        Folder for the rows: DIR/tool_gaps.csv and .json.
     """
     calls = study.calls(count, time_limit)
     return in_workers(study.STUDY, calls, out=out, jobs=jobs, resume=resume, json=json)

@@ -23,20 +23,24 @@ def torque_gaps(
     resume: Resume = False,
     json: Json = None,
 ) -> int:
-    """Find motions of an arm under torque limits, and prove how near they are.
+    """Find motions of an arm under torque limits, and prove how near they are to the fastest.
+
+    The gap is the time of the motion over the proved bound, minus 1. The bound is that of the other limits, so
+    that the gap holds what the torques cost. Needs the extras robot and dynamics.
 
     Parameters
     ----------
     urdf
-        The arm, with masses and efforts. Another arm than a UR5 has other waypoints.
+        The arm, with masses and torque limits (efforts). The waypoints are drawn for it; the figures in
+        the documentation are those of a UR5.
     payload
-        What it carries.
+        Mass at the end of the arm [kg].
     count
         Random problems.
     time_limit
-        For each search; the best motion so far counts.
+        Seconds that each search has, no limit if left out; the best motion until then counts.
     out
-        Folder for the rows.
+        Folder for the rows: DIR/torque_gaps.csv and .json.
     """
     calls = study.calls(urdf, count, payload=payload, time_limit=time_limit)
     return in_workers(study.STUDY, calls, out=out, jobs=jobs, resume=resume, json=json)

@@ -92,7 +92,7 @@ class Export:
         return [*lines, *(f"  {note}" for note in self.notes)]
 
 
-_ORDER = ("velocity", "acceleration", "jerk")
+_ORDER = ("velocity", "acceleration", "jerk", "tool speed", "torque")
 
 
 def check_export(

@@ -4,7 +4,9 @@ from __future__ import annotations
 
 import json
 import re
+import time
 import webbrowser
+from contextlib import nullcontext
 from html.parser import HTMLParser
 from pathlib import Path
 from typing import Any
@@ -13,9 +15,11 @@ import numpy as np
 import pytest
 
 from compare.__main__ import main
+from compare.commands.motions import view
 from compare.commands.motions.view import page_name
 from compare.report.charts.motions import ShownMotion, motions_chart
-from formulations import FAMILIES, Limits, Problem, Trajectory, check, load, write_motion
+from formulations import FAMILIES, Limits, Problem, Trajectory, check, load, planning, write_motion
+from formulations.deadlines import Deadline
 
 QUICK = "free_form,free_form_lower,ruckig_stop_and_go"
 NASTY = "<script>alert(1)</script>"
@@ -253,13 +257,57 @@ def test_conditions_have_a_motion_and_a_bound_of_their_own(tmp_path: Path) -> No
     assert "It stands still at waypoint 2." in page.text
 
 
+def test_a_time_limit_is_shared_by_motion_bound_and_ladder(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    """A search that uses all of its time leaves the others theirs."""
+    search, plan, given = planning.free_form, view.plan, []
+
+    def slow(*arguments: Any, **options: Any) -> Any:
+        answer = search(
+            *arguments, **options, **({} if "tolerance" in options else {"tolerance": 1e-2})
+        )
+        time.sleep(max(ends - time.perf_counter(), 0.0))
+        return answer
+
+    def planned(problem: Problem, **options: Any) -> Any:
+        nonlocal ends
+        given.append(options["time_limit"])
+        ends = time.perf_counter() + 0.75 * options["time_limit"]  # what plan leaves to the motion
+        return plan(problem, **options)
+
+    ends = 0.0
+    monkeypatch.setattr(planning, "free_form", slow)
+    monkeypatch.setattr(view, "plan", planned)
+    asked = ("sr4c", "--stop", "1", "--rungs", "ruckig_stop_and_go,displacement", "--time-limit", "12")
+    page = viewed(tmp_path, *asked)
+    assert given == [9.0]
+    assert "The fastest motion of sr4c under the conditions takes" in page.text  # proved to many digits
+    shown = {line["name"] for line in page.charts["ladder"]["lines"]}
+    assert "Ruckig, stop and go" in shown
+
+
+def test_a_ladder_without_time_is_no_error_where_the_motion_was_found(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
+) -> None:
+    climb = view.climb
+
+    def late(problem: Problem, rungs: Any, deadline: Any, *rest: Any, **options: Any) -> Any:
+        return climb(problem, rungs, Deadline(0.0), *rest, **options)
+
+    monkeypatch.setattr(view, "climb", late)
+    page = viewed(tmp_path, "sr4c", "--stop", "1", "--rungs", QUICK)  # exit code 0
+    assert "No motion was found without the conditions: the time limit was over" in page.text
+    err = capsys.readouterr().err
+    assert "sr4c: No motion was found without the conditions" in err
+    assert "error" not in err
+    viewed(tmp_path, "sr4c", "--rungs", QUICK, code=2)
+    assert "error: sr4c: No motion was found: the time limit was over" in capsys.readouterr().err
+
+
 def test_an_interrupt_leaves_the_page_of_what_is_known(
     tmp_path: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
-    from contextlib import nullcontext
-
-    from compare.commands.motions import view
-
     monkeypatch.setattr(view, "ctrl_c_stops", lambda: nullcontext(lambda: True))
     page = viewed(tmp_path, "sr4c", code=130)
     assert "This was interrupted" in page.text

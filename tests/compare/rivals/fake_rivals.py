@@ -2,9 +2,12 @@
 
 import os
 import time
+from dataclasses import replace
+
+import numpy as np
 
 from compare.rivals.rival import RivalAnswer
-from formulations import free_form
+from formulations import Conditions, free_form
 
 
 def crash(problem, seconds):
@@ -31,3 +34,13 @@ def hasten(problem, seconds):
 def honest(problem, seconds):
     motion = free_form(problem).trajectory.stretched(1.5)
     return RivalAnswer(motion, motion.seconds)
+
+
+def plain(problem, seconds):
+    assert problem.conditions.none, problem.conditions.asked
+    return honest(problem, seconds)
+
+
+def cut(problem, seconds):
+    inside = free_form(replace(problem, conditions=Conditions(tolerance={1: np.array([0.05, 0.05])})))
+    return RivalAnswer(inside.trajectory, inside.seconds)

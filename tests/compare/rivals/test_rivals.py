@@ -16,8 +16,9 @@ from compare.rivals.isolated import installed
 from compare.rivals.justblend_ import kinks
 from compare.rivals.pieces import along
 from compare.rivals.rows import RivalRow, limit_factor, path_length, run_rival
-from compare.rivals.run_study import STUDY, beside, calls, summarise, with_zones
-from compare.rivals.shown import as_page, as_text
+from compare.rivals.run_study import STUDY, beside, calls, count_rows, summarise, with_zones
+from compare.rivals.shown import as_page, cells
+from compare.rivals.terminal import as_text
 from compare.studies.study import finished, run
 from formulations import Conditions, Problem, Trajectory, free_form, free_form_bound
 
@@ -34,7 +35,7 @@ def fake(monkeypatch: pytest.MonkeyPatch, name: str, problem: Problem = TINY) ->
     monkeypatch.syspath_prepend(str(Path(__file__).parent))
     rival = Rival(name, name, f"fake_rivals:{name}", "numpy", (), "", "")
     seconds = 0.5 if name == "hang" else 60.0
-    row = run_rival(problem, rival, seconds=seconds, memory=4_000_000_000)
+    (row,) = run_rival([problem], rival, seconds=seconds, memory=4_000_000_000)
     return beside([row, replace(OURS, problem=problem.name)])[0]
 
 
@@ -88,7 +89,7 @@ def test_every_program_that_is_installed_answers(key: str) -> None:
     if not installed(rival):
         pytest.skip(f"needs {rival.package}")
     task = with_zones(TINY, 0.1) if rival.zones else TINY
-    row = run_rival(task, rival, seconds=20.0, memory=8_000_000_000)
+    (row,) = run_rival([task], rival, seconds=20.0, memory=8_000_000_000)
     assert row.status in ("keeps all", "breaks"), row
     assert row.seconds == pytest.approx(row.claimed, rel=1e-6)
     if row.status == "keeps all":
@@ -104,20 +105,22 @@ def test_scip_keeps_limits_between_its_nodes_too(limits: dict[str, float]) -> No
     if not installed(RIVALS["scip"]):
         pytest.skip("needs pyscipopt")
     task = Problem(TINY.waypoints, limits, name="less limited")
-    row = run_rival(task, RIVALS["scip"], seconds=20.0, memory=8_000_000_000)
+    (row,) = run_rival([task], RIVALS["scip"], seconds=20.0, memory=8_000_000_000)
     assert row.factor < 1.0 + 1e-5, row
     assert row.seconds >= free_form_bound(task).seconds * (1.0 - 1e-5)
 
 
 @pytest.mark.parametrize("key", [key for key, rival in RIVALS.items() if rival.refusal])
 def test_a_program_that_may_not_run_says_why(key: str) -> None:
-    row = run_rival(TINY, RIVALS[key], seconds=1.0, memory=1)
+    (row,) = run_rival([TINY], RIVALS[key], seconds=1.0, memory=1)
     assert (row.status, row.reason) == ("not run", RIVALS[key].refusal)
+    (zoned,) = run_rival([with_zones(TINY, 0.1)], RIVALS[key], seconds=1.0, memory=1)
+    assert not zoned.exact  # nothing was passed
 
 
 def test_a_missing_program_says_what_to_install() -> None:
     rival = Rival("x", "x", "nowhere:x", "not-there", ("not_there",), "", "")
-    row = run_rival(TINY, rival, seconds=1.0, memory=1)
+    (row,) = run_rival([TINY], rival, seconds=1.0, memory=1)
     assert (row.status, row.reason) == ("not installed", "pip install not-there")
 
 
@@ -128,8 +131,8 @@ def test_an_interrupted_run_loses_nothing_that_is_finished(
     true, asked = STUDY.compute, []
 
     def interrupted(*call: Any) -> list[RivalRow]:
-        asked.append(call[1])
-        if call[1] == stop:
+        asked.append(call[2])
+        if call[2] == stop:
             raise KeyboardInterrupt
         return list(true(*call))
 
@@ -159,21 +162,56 @@ def test_ctrl_c_shows_what_is_finished(
     assert "timebound" in shown.out
 
 
-def test_corners_are_cut_by_both_or_by_none() -> None:
+def test_corners_are_cut_by_both_and_the_others_are_run_once() -> None:
     listed = calls([TINY], ["ruckig", "justblend_blends"], zone=0.1, seconds=1.0, memory=1)
-    assert [(call[0].name, call[1]) for call in listed] == [
-        ("tiny", "timebound"),
-        ("tiny", "ruckig"),
-        ("tiny", "justblend_blends"),
-        ("tiny, zones of 0.1 rad", "timebound"),
-        ("tiny, zones of 0.1 rad", "justblend_blends"),
+    zones = "tiny, zones of 0.1 rad"
+    assert [(call[0].name, call[1] and call[1].name, call[2]) for call in listed] == [
+        ("tiny", None, "timebound"),
+        (zones, None, "timebound"),
+        ("tiny", zones, "ruckig"),
+        ("tiny", None, "justblend_blends"),
+        (zones, None, "justblend_blends"),
     ]
-    exact, zoned = listed[0][0], listed[3][0]
+    assert count_rows(listed) == 6
+    exact, zoned = listed[0][0], listed[1][0]
     assert exact.conditions.none
     assert {k: box.tolist() for k, box in zoned.conditions.tolerance.items()} == {1: [0.1, 0.1]}
-    row = run_rival(exact, RIVALS["justblend_blends"], seconds=1.0, memory=1)
+    (row,) = run_rival([exact], RIVALS["justblend_blends"], seconds=1.0, memory=1)
     assert row.status == "cannot be asked"
     assert "passes no inner waypoint exactly" in row.reason
+
+
+def test_a_program_without_zones_is_given_the_points_and_marked(
+    monkeypatch: pytest.MonkeyPatch,
+) -> None:
+    monkeypatch.syspath_prepend(str(Path(__file__).parent))
+    zoned = with_zones(TINY, 0.1)
+    rival = Rival("plain", "plain", "fake_rivals:plain", "numpy", (), "", "")  # refuses any condition
+    rows = run_rival([TINY, zoned], rival, seconds=60.0, memory=4_000_000_000)
+    assert [(row.problem, row.status, row.exact) for row in rows] == [
+        ("tiny", "keeps all", False), ("tiny, zones of 0.1 rad", "keeps all", True),
+    ]  # fmt: skip
+    assert rows[0].seconds == rows[1].seconds
+    assert rows[0].computation == rows[1].computation  # it was run once
+    assert max(row.deviation for row in rows) < 1e-8
+    marked = [cells(row)[-1] for row in rows]
+    assert marked == ["", "passes the points exactly"]
+    (own,) = run_rival([zoned], rival, seconds=60.0, memory=4_000_000_000)  # a file with zones
+    assert (own.status, own.exact) == ("keeps all", True)
+    waiting = replace(zoned, conditions=replace(zoned.conditions, waits={1: 0.5}))
+    (row,) = run_rival([waiting], rival, seconds=60.0, memory=4_000_000_000)
+    assert (row.status, row.reason) == (
+        "cannot be asked", "plain: knows no conditions, the problem has conditions.waits",
+    )  # fmt: skip
+
+
+def test_each_task_is_judged_on_its_own(monkeypatch: pytest.MonkeyPatch) -> None:
+    """A motion within the zones keeps all there, and misses the point of the task without zones."""
+    monkeypatch.syspath_prepend(str(Path(__file__).parent))
+    rival = Rival("cut", "cut", "fake_rivals:cut", "numpy", (), "", "")
+    exact, zoned = run_rival([TINY, with_zones(TINY, 0.1)], rival, seconds=60.0, memory=4_000_000_000)
+    assert (exact.status, zoned.status) == ("breaks", "keeps all")
+    assert exact.faults.startswith("misses waypoint 2 by 0.0")
 
 
 def test_the_summary_counts_every_row() -> None:
@@ -213,10 +251,36 @@ def test_command_writes_table_json_and_page(tmp_path: Path, capsys: pytest.Captu
     assert [row["rival"] for row in data] == ["timebound", "ruckig", "jacobi"]
     assert data[0]["seconds"] >= data[0]["bound"]
     shown = capsys.readouterr().out
-    for value in (data[1]["seconds"], data[1]["over_fastest"], data[1]["over_bound"]):
+    for value in (data[1]["seconds"], data[1]["over_fastest"], data[0]["over_bound"]):
         assert f"{value:.4f}" in shown
     assert "Rivals in one run" in page.read_text()
     assert f"{data[1]['seconds']:.4f}" in page.read_text()
+
+
+def test_tables_fit_into_eighty_columns() -> None:
+    """Every program with the longest entries, whatever they say."""
+    words = "velocity 1 + 1.5e-04 of its limit (joint 3, and 6 more); " * 3
+    rows = [
+        RivalRow(
+            "tiny", key, "1", "no motion", words, 25.0, 12.0, 17.8380, 10.0, 10.0, 9.0, 1.0, 1.0, 9.0, 1.0,
+            1.0 + 8.1e-7, 17.8380, words, 20.23, exact,
+        )
+        for exact in (False, True)
+        for key in RIVALS
+    ]  # fmt: skip
+    shown = as_text(rows, summarise(rows)).splitlines()
+    assert max(len(line) for line in shown if "velocity" not in line and "----" not in line) <= 80
+    assert sum(line == "points passed exactly:" for line in shown) == 2
+    assert sum(line.count("1+8.1e-07") for line in shown) == 4 * len(RIVALS)
+
+
+def test_programs_that_are_not_given_a_task_stand_at_the_end_with_reasons() -> None:
+    absent = RivalRow("tiny", "scip", "", "not installed", "pip install pyscipopt")
+    rows = beside([OURS, absent, replace(absent, problem="other"), replace(OURS, problem="other")])
+    tables, _, end = as_text(rows, summarise(rows)).partition("not given a task\n")
+    assert "SCIP" not in tables
+    assert "points passed exactly" not in tables + end
+    assert "SCIP         2  not installed: pip install pyscipopt" in end
 
 
 def test_names_of_a_page_are_escaped() -> None:

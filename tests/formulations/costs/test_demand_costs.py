@@ -2,15 +2,20 @@
 
 from __future__ import annotations
 
+import time
 from dataclasses import replace
+from typing import Any
 
 import numpy as np
 import pytest
 
 from formulations import Conditions, Limits, Problem, free_form, load
 from formulations.costs import demand_costs as module
-from formulations.costs.demand_costs import DemandCost, count_demands, demand_costs
+from formulations.costs.demand_costs import DemandCost, demand_costs
+from formulations.costs.left_out import left_out
 from formulations.deadlines import Deadline
+from formulations.problem.errors import NoFeasibleMotion, NotFoundInTime
+from formulations.proofs.every_motion.bound import free_form_bound
 
 A = 4.0  # rad/s^2
 THERE_AND_BACK = Problem.of([[0.0], [1.0], [0.0]], Limits.of(100.0, A, dof=1))
@@ -110,7 +115,7 @@ def test_every_demand_of_an_arm_has_a_row_that_planning_again_confirms() -> None
     sr4c = load("sr4c")
     asked = Conditions(tolerance={1: np.full(6, 0.1)}, waits={2: 0.3}, segment_times={0: (1.5, 3.0)})
     costs = demand_costs(sr4c, asked)
-    assert count_demands(replace(sr4c, conditions=asked)) == len(costs)
+    assert len(list(left_out(replace(sr4c, conditions=asked)))) == len(costs)
     assert {cost.demand for cost in costs} == {"zone", "wait", "least time", "greatest time"}
     assert [cost.seconds for cost in costs] == sorted((c.seconds for c in costs), reverse=True)
     wait = next(cost for cost in costs if cost.demand == "wait")
@@ -122,15 +127,73 @@ def test_every_demand_of_an_arm_has_a_row_that_planning_again_confirms() -> None
     assert zone.to_json()["place"] == 2
 
 
-def test_where_time_is_over_rows_are_left_out() -> None:
-    assert demand_costs(ONE_WAY, Conditions(end_velocity="free"), deadline=Deadline(0.0)) == ()
+def test_where_time_is_over_rows_say_so() -> None:
+    (row,) = demand_costs(ONE_WAY, Conditions(end_velocity="free"), deadline=Deadline(0.0))
+    assert row.line == "the free velocity at the end: not known, the time was over"
+    assert row.to_json()["seconds"] is None
     asked = Conditions(stops=frozenset({1}), end_velocity="free")
     seen: list[str] = []
     costs = demand_costs(
         ONE_WAY, asked, deadline=Deadline(stop=lambda: len(seen) > 1), progress=seen.append
     )
     assert len(seen) == 2
-    assert len(costs) == 1
+    assert [cost.unknown for cost in costs] == ["", "it was interrupted"]
+    assert costs[0].seconds is not None
+
+
+def test_one_demand_that_takes_long_leaves_time_to_the_others(monkeypatch: pytest.MonkeyPatch) -> None:
+    """The search without the stop goes on until its deadline; the others end by themselves."""
+    found = module.free_form
+
+    def slow(problem: Problem, **options: Any) -> Any:
+        if problem.conditions.stops:
+            return found(problem, **options)
+        time.sleep(options["time_limit"])
+        raise NotFoundInTime("no motion was found yet")
+
+    monkeypatch.setattr(module, "free_form", slow)
+    asked = Conditions(stops=frozenset({1}), end_velocity="free")
+    costs = demand_costs(ONE_WAY, asked, deadline=Deadline(6.0))
+    assert {cost.demand: cost.unknown for cost in costs} == {
+        "end state": "", "stop": "its share of the time was over",
+    }  # fmt: skip
+
+
+def test_a_demand_without_which_there_is_nothing_to_compare_says_why(
+    monkeypatch: pytest.MonkeyPatch,
+) -> None:
+    found = module.free_form
+
+    def none(problem: Problem, **options: Any) -> Any:
+        if problem.conditions.stops:
+            return found(problem, **options)
+        raise NoFeasibleMotion("no motion at all")
+
+    monkeypatch.setattr(module, "free_form", none)
+    (row,) = demand_costs(ONE_WAY, Conditions(stops=frozenset({1})))
+    assert (row.seconds, row.unknown) == (None, "nothing can be compared: no motion at all")
+
+
+def test_a_proof_that_is_given_is_taken_where_it_is_close(monkeypatch: pytest.MonkeyPatch) -> None:
+    asked = Conditions(waits={1: 0.7})
+    proved = {
+        gap: free_form_bound(THERE_AND_BACK, conditions=asked, gap=gap, upper=2.7)
+        for gap in (1e-6, 0.5)
+    }
+    asked_for: list[Problem] = []
+    bound = module.free_form_bound
+
+    def counted(problem: Problem, **options: Any) -> Any:
+        asked_for.append(problem)
+        return bound(problem, **options)
+
+    monkeypatch.setattr(module, "free_form_bound", counted)
+    for gap, proof in proved.items():
+        asked_for.clear()
+        cost = only(demand_costs(THERE_AND_BACK, asked, proof=proof))
+        assert cost.least == pytest.approx(0.7, abs=2e-4)
+        again = 0 if (proof.gap or 0.0) <= 1e-4 else 1
+        assert len(asked_for) == 1 + again, gap
 
 
 def test_without_demands_there_are_no_rows() -> None:

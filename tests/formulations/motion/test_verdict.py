@@ -25,6 +25,7 @@ from planted_motions import (
 )
 
 from formulations import FAMILIES, InputError, Limits, Problem, Trajectory, check
+from formulations.motion.peaks import Peak
 
 # --- a motion that is right -----------------------------------------------------------------------
 
@@ -231,3 +232,16 @@ def test_a_limit_broken_by_a_millionth_is_named_with_joint_segment_time_and_fact
             assert len(verdict.faults) == 1
             assert f"joint {joint + 1} in segment {segment + 1}" in verdict.faults[0]
             assert "over the limit" in verdict.faults[0]
+
+
+@pytest.mark.parametrize(
+    ("quantity", "said"),
+    [
+        ("velocity", "90 deg/s, limit 180 deg/s"),
+        ("torque", "1.5708 N m, limit 3.14159 N m"),
+    ],
+)
+def test_a_peak_is_said_in_its_own_unit(quantity: str, said: str) -> None:
+    """Degrees are a unit of angles; a torque has none in it."""
+    peak = Peak(quantity, 0, 0, 0.5, math.pi / 2.0, math.pi, 0.5, 0.5, angle="deg")
+    assert f"at 0.5000 s: {said}, factor 0.5" in str(peak)

@@ -10,7 +10,7 @@ from small_arms import two_links
 from tool_problems import planar
 
 from formulations import Conditions, Limits, Problem, check, free_form
-from formulations.optima.at_rate.export import export_motion
+from formulations.optima.at_rate.export import Export, export_motion
 from formulations.problem.torque import TorqueLimits
 
 pytest.importorskip("pinocchio", reason="pin is not installed (extra dynamics)")
@@ -38,6 +38,14 @@ def test_the_points_keep_torques_and_the_tool_s_speed(
         assert np.abs(steps - 1.0 / rate).max() < 1e-9
     used = {peak.quantity: peak.factor for peak in check(problem, file.motion).peaks}
     assert 0.95 < used["torque"] <= 1.0 + 1e-6
+    said = file.lines()[1]
+    assert f"torque {file_factor(file, 'torque'):.9g}" in said
+    assert (speed is not None) == ("tool speed" in said)
+
+
+def file_factor(file: Export, quantity: str) -> float:
+    """How much of a limit a file uses."""
+    return max(peak.factor for peak in file.verdict.peaks if peak.quantity == quantity)
 
 
 def read_points(path: Path) -> np.ndarray:
