@@ -19,6 +19,7 @@ from formulations.optima.free_form import FreeForm, SearchStatus, free_form, pro
 from formulations.problem.conditions import Conditions
 from formulations.problem.errors import InputError, NoFeasibleMotion, NotFoundInTime
 from formulations.problem.problem import Problem
+from formulations.proofs.every_motion.bound import FreeFormBound
 from formulations.proofs.status import BoundStatus
 
 _GAP, _PROOF = 1e-4, 20.0  # of each motion and its bound; s for one bound

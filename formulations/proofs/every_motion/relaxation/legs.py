@@ -39,7 +39,7 @@ def legs_between(demands: Demands, kept: Indices) -> Indices:
     if demands.plain:
         return legs
     box = demands.waypoints[kept]
-    meets = (gaps(box, legs) <= 0.0).all(axis=(1, 2))
+    meets = np.asarray(gaps(box, legs).max(axis=(1, 2), initial=0.0) <= 0.0)
     zone = (box[..., 0] < box[..., 1]).any(axis=1) & (demands.waits[kept] == 0.0)
     over = [
         (i, i + many)

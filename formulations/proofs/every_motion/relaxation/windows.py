@@ -51,8 +51,8 @@ class Window:
         self.program, frame = program, program.frame
         self.first, self.end = max(middle - HALF, 0), min(middle + HALF + 1, frame.K)
         k, at = slice(self.first, self.end), slice(self.first, self.end + 1)
-        inside = (frame.T[k], frame.inverse[k], frame.square[k], frame.v[at], frame.a[at], frame.W[k])
-        inside = (*inside, frame.e[at], frame.p[k])
+        inside = [frame.T[k], frame.inverse[k], frame.square[k], frame.v[at], frame.a[at], frame.W[k]]
+        inside += [frame.e[at], frame.p[k]]
         columns = np.unique(np.concatenate([block.ravel() for block in inside]))
         self.columns = columns[columns >= 0]  # where there is no zone, there is no column
         self.place = np.full(frame.size, -1)

@@ -5,7 +5,7 @@ import pytest
 from scipy.optimize import linprog
 
 from compare.check_certificate.verify import verify
-from formulations import Limits, Problem, free_form, free_form_bound
+from formulations import Conditions, Limits, Problem, free_form, free_form_bound
 from formulations.deadlines import Deadline
 from formulations.problem.demands import Demands
 from formulations.proofs.every_motion.beginnings import first_boxes, tangents
@@ -100,3 +100,44 @@ def test_a_wide_gap_is_closed_to_the_one_asked_for(seed):
     verify(bound.certificate)
     claimed = float.fromhex(bound.certificate["seconds"])
     assert claimed == pytest.approx(bound.seconds, rel=1e-6)
+
+
+def many_zones(seed):
+    """The zones do not meet: each step of a joint is longer than both together."""
+    rng = np.random.default_rng(seed)
+    moves = rng.uniform(0.3, 1.0, (34, 2)) * rng.choice([-1.0, 1.0], (34, 2))
+    waypoints = np.concatenate([np.zeros((1, 2)), np.cumsum(moves, axis=0)])
+    zones = Conditions(tolerance={k: np.array([0.05, 0.02]) for k in range(1, 34, 2)})
+    limits = Limits.of(velocity=2.0, acceleration=5.0, jerk=50.0, dof=2)
+    return Problem(waypoints, limits, conditions=zones)
+
+
+@pytest.mark.parametrize("seed", range(2))
+def test_a_long_chain_in_zones_is_proved_and_certified(seed):
+    problem = many_zones(seed)
+    upper = free_form(problem, tolerance=1e-5).seconds
+    demands = Demands.of(problem)
+    relaxed = RelaxedProblem.under(demands, upper * (1.0 + 1e-6))
+    assert len(relaxed.legs) == relaxed.n_segments
+    frame = Frame(relaxed, first_boxes(demands, relaxed, None), np.full(relaxed.n_segments, 0.7))
+    assert in_band.long_chain(frame)
+    program = LinearProgram(frame, tangents(frame.boxes.durations))
+    found = in_band.least_time(program, rounds=40, tolerance=1e-7)
+    exact = {"primal_feasibility_tolerance": 1e-10, "dual_feasibility_tolerance": 1e-10}
+    rows = program.rows
+    other = linprog(frame.cost, rows.matrix, rows.upper, bounds=frame.box, options=exact)
+    assert found.reason == "from elsewhere"  # not by HiGHS
+    assert found.bound == pytest.approx(other.fun, rel=1e-6)
+    bound = free_form_bound(problem, gap=1e-3, upper=upper, time_limit=120.0, record=True)
+    assert bound.seconds <= upper <= bound.seconds * (1.0 + 1e-3)
+    verify(bound.certificate)
+    assert float.fromhex(bound.certificate["seconds"]) == pytest.approx(bound.seconds, rel=1e-5)
+
+
+def test_where_zones_meet_legs_go_beyond_them():
+    problem = many_zones(0)
+    wide = Conditions(tolerance={k: np.full(2, 1.2) for k in (10, 11)})
+    relaxed = RelaxedProblem.under(Demands.of(problem, wide), 100.0)
+    beyond = relaxed.legs[relaxed.n_segments :]
+    assert len(beyond) > 0
+    assert all(start <= 10 < 11 <= end for start, end in beyond.tolist())
