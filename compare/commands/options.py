@@ -7,6 +7,7 @@ module loads at once.
 
 from __future__ import annotations
 
+import math
 import os
 from collections.abc import Callable, Iterable, Sequence
 from math import isfinite
@@ -39,23 +40,25 @@ def positive(kind: Any, value: float | None) -> None:
         raise ValueError(f"{value:g} is not positive" if isfinite(value) else f"{value} is not finite")
 
 
-def not_negative(kind: Any, value: int) -> None:
+def not_negative(kind: Any, value: float) -> None:
     """Refuse a negative number (a validator of cyclopts).
 
     Parameters
     ----------
     kind : type
         The type of the option.
-    value : int
+    value : float
         Its value.
 
     Raises
     ------
     ValueError
-        It is negative.
+        It is negative, infinite or no number.
     """
     if value < 0:
         raise ValueError(f"{value} is negative")
+    if not math.isfinite(value):
+        raise ValueError(f"{value} is not finite")
 
 
 def writable(kind: Any, value: str | None) -> None:

@@ -1,6 +1,7 @@
 """Time and memory of motion and proof against the number of waypoints: behind ``timebound scale``.
 
-Random problems: every joint walks by steps drawn evenly from -step to step. Each problem is planned and
+Random problems: every joint walks by steps drawn evenly from -step to step; where zones are asked for, each
+inner waypoint may be passed that far from it. Each problem is planned and
 proved in a process of its own, so that the peak of the memory is that of this problem, Python and its
 libraries included.
 """
@@ -24,7 +25,7 @@ from compare.engines import workers
 from compare.report.style import BLACK, BLUE, GREEN, GREY, ORANGE, VERMILION, styled
 from compare.screen import table
 from compare.studies.study import Call, Study
-from formulations import Limits, Problem, check, free_form, free_form_bound
+from formulations import Conditions, Limits, Problem, check, free_form, free_form_bound
 
 TARGETS = {100: 10.0, 1000: 120.0}  # s for motion and proof of seven joints, by number of waypoints
 _VELOCITY, _ACCELERATION, _JERK = 2.0, 5.0, 50.0  # limits of every joint [rad/s, rad/s^2, rad/s^3]
@@ -35,8 +36,9 @@ _MEGABYTE = 1e6
 class ScaleAnswer:
     """One problem.
 
-    seconds: time of the motion, bound: what no motion beats [s]. status: how the proof ended. motion,
-    proof: processor time until they were found [s], which is that on an idle core, as there is one thread;
+    step: longest one of a joint, zones: how far from an inner waypoint it may be passed [rad]. seconds:
+    time of the motion, bound: what no motion beats [s]. status: how the proof ended. motion, proof:
+    processor time until they were found [s], which is that on an idle core, as there is one thread;
     elapsed: time of the clock for both [s]. memory: peak of the process [bytes], not a number where the
     system does not tell.
     """
@@ -44,6 +46,7 @@ class ScaleAnswer:
     joints: int
     waypoints: int
     step: float
+    zones: float
     seed: int
     seconds: float
     feasible: bool
@@ -65,7 +68,7 @@ class ScaleAnswer:
         return self.motion + self.proof
 
 
-def random_walk(joints: int, waypoints: int, step: float, seed: int = 0) -> Problem:
+def random_walk(joints: int, waypoints: int, step: float, zones: float = 0.0, seed: int = 0) -> Problem:
     """Draw a problem.
 
     Parameters
@@ -73,6 +76,8 @@ def random_walk(joints: int, waypoints: int, step: float, seed: int = 0) -> Prob
     joints, waypoints : int
     step : float [rad]
         Longest step of a joint between two waypoints.
+    zones : float [rad]
+        How far from each inner waypoint every joint may pass it.
     seed : int
         The same seed draws the same problem.
 
@@ -82,18 +87,21 @@ def random_walk(joints: int, waypoints: int, step: float, seed: int = 0) -> Prob
     """
     steps = np.random.default_rng(seed).uniform(-step, step, (waypoints - 1, joints))
     places = np.concatenate([np.zeros((1, joints)), np.cumsum(steps, axis=0)])
-    return Problem(places, Limits.of(_VELOCITY, _ACCELERATION, _JERK, dof=joints))
+    inner = range(1, waypoints - 1) if zones else ()
+    asked = Conditions(tolerance={k: np.full(joints, zones) for k in inner})
+    limits = Limits.of(_VELOCITY, _ACCELERATION, _JERK, dof=joints)
+    return Problem(places, limits, conditions=asked)
 
 
 def answered_here(
-    joints: int, waypoints: int, step: float, seed: int, gap: float, time_limit: float
+    joints: int, waypoints: int, step: float, zones: float, seed: int, gap: float, time_limit: float
 ) -> ScaleAnswer:
     """Plan and prove one problem in this process.
 
     Parameters
     ----------
     joints, waypoints : int
-    step : float [rad]
+    step, zones : float [rad]
         As of ``random_walk``.
     seed : int
     gap : float
@@ -105,7 +113,7 @@ def answered_here(
     -------
     ScaleAnswer
     """
-    problem = random_walk(joints, waypoints, step, seed)
+    problem = random_walk(joints, waypoints, step, zones, seed)
     begun, started = time.perf_counter(), time.process_time()
     found = free_form(problem, tolerance=gap)
     motion = time.process_time() - started
@@ -114,7 +122,7 @@ def answered_here(
     bound = free_form_bound(problem, gap=gap, upper=found.seconds, time_limit=time_limit)
     proof, elapsed = time.process_time() - started, time.perf_counter() - begun
     return ScaleAnswer(
-        joints, waypoints, step, seed, found.seconds, feasible, bound.seconds, bound.ending,
+        joints, waypoints, step, zones, seed, found.seconds, feasible, bound.seconds, bound.ending,
         motion, proof, elapsed, peak_memory(),
     )  # fmt: skip
 
@@ -156,7 +164,13 @@ def peak_memory() -> float:
 
 
 def calls(
-    joints: int, counts: Sequence[int], step: float, seed: int, gap: float, time_limit: float
+    joints: int,
+    counts: Sequence[int],
+    step: float,
+    zones: float,
+    seed: int,
+    gap: float,
+    time_limit: float,
 ) -> list[Call]:
     """List the calls of the study, one per number of waypoints.
 
@@ -165,7 +179,7 @@ def calls(
     joints : int
     counts : sequence of int
         Numbers of waypoints.
-    step : float [rad]
+    step, zones : float [rad]
     seed : int
     gap : float
     time_limit : float [s]
@@ -176,7 +190,7 @@ def calls(
     list of tuples
         Arguments of ``answered``.
     """
-    return [(joints, count, step, seed, gap, time_limit) for count in counts]
+    return [(joints, count, step, zones, seed, gap, time_limit) for count in counts]
 
 
 def summarise(rows: list[ScaleAnswer]) -> list[dict[str, Any]]:

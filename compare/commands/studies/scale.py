@@ -8,7 +8,7 @@ from typing import Annotated, Any
 from cyclopts import Parameter, Token
 
 from compare.commands import DONE
-from compare.commands.options import Gap, Json, Resume, Seed, positive
+from compare.commands.options import Gap, Json, Resume, Seed, not_negative, positive
 from compare.commands.studies import alone
 from compare.screen import show
 from compare.studies import scale as study
@@ -38,6 +38,7 @@ def scale(
     joints: Annotated[int, Parameter(validator=positive)] = 7,
     counts: Counts = (10, 30, 100, 300, 1000),
     step: Annotated[float, Parameter(metavar="RAD", validator=positive)] = 2.5,
+    zones: Annotated[float, Parameter(metavar="RAD", validator=not_negative)] = 0.0,
     seed: Seed = 0,
     gap: Gap = 1e-3,
     time_limit: Annotated[float, Parameter(metavar="SECONDS", validator=positive)] = 600.0,
@@ -58,12 +59,14 @@ def scale(
         Numbers of waypoints.
     step
         Longest step of a joint between two waypoints [rad].
+    zones
+        How far from each inner waypoint every joint may pass it [rad].
     time_limit
         Seconds that each proof has; the search for a motion has no limit.
     out
         Folder of the files.
     """
-    listed = study.calls(joints, counts, step, seed, gap, time_limit)
+    listed = study.calls(joints, counts, step, zones, seed, gap, time_limit)
     found = alone(study.STUDY, listed, out=out, resume=resume)
     show(found.as_text(), found.to_json(), json)
     return DONE

@@ -12,18 +12,25 @@ import pytest
 from compare.studies import scale, study
 
 ROW = scale.ScaleAnswer(
-    joints=2, waypoints=100, step=2.5, seed=0, seconds=3.0, feasible=True, bound=2.0, status="proved",
-    motion=1.5, proof=4.0, elapsed=6.0, memory=2e8,
+    joints=2, waypoints=100, step=2.5, zones=0.0, seed=0, seconds=3.0, feasible=True, bound=2.0,
+    status="proved", motion=1.5, proof=4.0, elapsed=6.0, memory=2e8,
 )  # fmt: skip
 
 
 def test_the_same_seed_draws_the_same_walk_and_no_step_is_longer() -> None:
-    problem = scale.random_walk(3, 50, 0.4, 7)
-    assert problem == scale.random_walk(3, 50, 0.4, 7)
-    assert problem != scale.random_walk(3, 50, 0.4, 8)
+    problem = scale.random_walk(3, 50, 0.4, seed=7)
+    assert problem == scale.random_walk(3, 50, 0.4, seed=7)
+    assert problem != scale.random_walk(3, 50, 0.4, seed=8)
     steps = np.abs(np.diff(problem.waypoints, axis=0))
     assert steps.shape == (49, 3)
     assert 0.3 < steps.max() <= 0.4
+
+
+def test_zones_are_around_inner_waypoints() -> None:
+    problem = scale.random_walk(3, 5, 0.4, zones=0.05)
+    assert sorted(problem.conditions.tolerance) == [1, 2, 3]
+    assert (problem.conditions.tolerance[2] == 0.05).all()
+    assert scale.random_walk(3, 5, 0.4).conditions.none
 
 
 def test_gap_whole_time_and_table_of_a_planted_row() -> None:
@@ -50,7 +57,7 @@ def test_the_figure_has_a_slope_of_one_and_both_aims() -> None:
 
 def test_files_of_tiny_counts_memory_apart_and_resuming(tmp_path: Path) -> None:
     hoard = np.ones(60_000_000)  # half a gigabyte here, which is not the problems' own
-    calls = scale.calls(2, [3, 5], 1.0, 0, 1e-3, 20.0)
+    calls = scale.calls(2, [3, 5], 1.0, 0.05, 0, 1e-3, 20.0)
     found = study.run(scale.STUDY, calls, folder=tmp_path)
     for row in found.rows:
         assert row.feasible
