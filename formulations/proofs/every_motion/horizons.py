@@ -218,7 +218,7 @@ class HorizonSearch:
         boxes = first_boxes(self.demands, relaxed, boxes)
         typical = relaxed.units(self.typical)
         tolerance = min(max(1e-3 * gap, 1e-9), 1e-7)
-        rounds = FEW
+        stalled, rounds = False, FEW
         while not boxes.empty:
             frame = Frame(relaxed, boxes, typical)
             program = LinearProgram(frame, Cuts.joined([tangents(boxes.durations), self.cuts]))
@@ -255,10 +255,12 @@ class HorizonSearch:
             if horizon > min(self.seconds * (1.0 + _FAR), self._aim(gap)):
                 return None, boxes
             slow = self.seconds - before < _STALLED * (horizon - before)
-            if slow and rounds == MANY:
+            if slow and (stalled if self.long else rounds == MANY):
                 return self._in_parts(relaxed, horizon, boxes, gap, deadline), boxes
             narrower, self.cuts = tighten(program, solution, deadline, rounds=rounds)
-            if (slow and not self.long) or narrower.width > (1.0 - _STALLED) * boxes.width:
+            stuck = narrower.width > (1.0 - _STALLED) * boxes.width
+            stalled = stuck and rounds == MANY
+            if stuck or (slow and not self.long):
                 rounds = MANY
             boxes = narrower
         self.improve(horizon)
