@@ -180,14 +180,14 @@ def test_a_proof_that_is_given_is_taken_where_it_is_close(monkeypatch: pytest.Mo
         gap: free_form_bound(THERE_AND_BACK, conditions=asked, gap=gap, upper=2.7)
         for gap in (1e-6, 0.5)
     }
-    asked_for: list[Problem] = []
-    bound = module.free_form_bound
+    asked_for: list[Any] = []
+    prove = module.proved_motion
 
-    def counted(problem: Problem, **options: Any) -> Any:
-        asked_for.append(problem)
-        return bound(problem, **options)
+    def counted(found: Any, **options: Any) -> Any:
+        asked_for.append(found)
+        return prove(found, **options)
 
-    monkeypatch.setattr(module, "free_form_bound", counted)
+    monkeypatch.setattr(module, "proved_motion", counted)
     for gap, proof in proved.items():
         asked_for.clear()
         cost = only(demand_costs(THERE_AND_BACK, asked, proof=proof))
