@@ -217,7 +217,7 @@ class ChainDescent:
                 cuts.insert(0, self.rows.coefficients(self.rows.states(self.point)))
                 box = TrustRegion(self.task).box(self.columns, self.point)
                 box[self.columns.T] = (-1e-9, 1e-9)
-                self.point, _ = self._solved(cuts, box, csr_array(diags_array(calm)), 1e-8, deadline)
+                self.point, _ = self._solved(cuts, box, csr_array(diags_array(calm)), 1e-6, deadline)
                 self._keep_feasible(_NARROW * share)
                 if deadline.over or self.best is not best:
                     break
