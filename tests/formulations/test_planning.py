@@ -101,6 +101,7 @@ def test_a_time_limit_keeps_a_share_for_the_bound(
     assert given == [motion]
 
 
+@pytest.mark.long
 def test_a_search_that_uses_its_time_up_leaves_a_bound(monkeypatch: pytest.MonkeyPatch) -> None:
     problem = f.load("sr4c")
     found = planning.free_form

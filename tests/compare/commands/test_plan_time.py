@@ -27,7 +27,8 @@ def hundred(tmp_path: Path) -> Path:
     path = tmp_path / "hundred.toml"
     limits = "\n".join(f"{key} = {value}" for key, value in LIMITS.items())
     text = f'name = "hundred"\nwaypoints = {large(100).tolist()}\n[limits]\n{limits}\n'
-    path.write_text(f"{text}[conditions]\nstops = [50]\n")  # programs of half a minute
+    # a window is left to the programs, which take half a minute
+    path.write_text(f"{text}[[conditions.waypoint]]\nat = 50\nwindow = [0.1, inf]\n")
     return path
 
 

@@ -257,6 +257,7 @@ def test_conditions_have_a_motion_and_a_bound_of_their_own(tmp_path: Path) -> No
     assert "It stands still at waypoint 2." in page.text
 
 
+@pytest.mark.long
 def test_a_time_limit_is_shared_by_motion_bound_and_ladder(
     tmp_path: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:

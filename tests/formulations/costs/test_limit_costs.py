@@ -32,6 +32,7 @@ def seconds(limits: dict[str, float] | Limits, points: object = POINTS) -> float
     return free_form(Problem(points, limits), tolerance=1e-6).seconds
 
 
+@pytest.mark.long
 def test_the_speed_of_a_hinge_s_tool_costs_what_a_velocity_limit_costs() -> None:
     (cost,) = demand_costs(hinge(LEVER, Conditions(tool_speed=0.6 * LEVER)))
     truth = seconds({**LIMITS, "velocity": 0.6}) - seconds(LIMITS)
@@ -52,6 +53,7 @@ def test_a_slower_segment_costs_and_a_faster_one_saves() -> None:
         assert cost.to_json()["place"] == 2
 
 
+@pytest.mark.long
 def test_a_ball_of_the_tool_costs_within_the_zone_and_saves_against_the_point() -> None:
     """A ball of 0.5 mm all but fixes the point: what it saves is what it does not cost, about."""
     for radius, much in ((5e-4, "tool ball"), (0.2, "zone")):

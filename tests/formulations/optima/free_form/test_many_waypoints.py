@@ -132,7 +132,7 @@ def test_a_dense_path_with_a_corner_beside_the_program_of_the_whole_motion(monke
     assert found.seconds <= free_form(problem).seconds * (1.0 + 1e-2)
 
 
-@pytest.mark.slow
+@pytest.mark.long
 def test_three_hundred_waypoints():
     problem = random_problem(300, 7)
     found = free_form(problem)

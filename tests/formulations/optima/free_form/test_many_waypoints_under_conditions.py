@@ -112,7 +112,7 @@ def test_what_it_does_not_know_is_left_to_the_programs(asked: Conditions) -> Non
     assert check(problem, found.trajectory, conditions=asked).feasible
 
 
-@pytest.mark.slow
+@pytest.mark.long
 def test_three_hundred_zones_take_no_longer_than_the_waypoints() -> None:
     rng = np.random.default_rng(0)
     limits = Limits.of(velocity=2.0, acceleration=5.0, jerk=50.0, dof=7)

@@ -69,6 +69,7 @@ def test_a_limit_that_costs_nothing_changes_nothing() -> None:
     assert free_form(two_links(Conditions(tool_speed=50.0))).seconds == plain.seconds
 
 
+@pytest.mark.long
 def test_a_ball_of_the_tool_saves_time_and_is_kept() -> None:
     through = free_form(two_links(Conditions(tool_speed=0.8)), tolerance=1e-2)
     asked = Conditions(tool_speed=0.8, tool_zones={1: 0.05})

@@ -143,6 +143,7 @@ def test_a_jerk_term_too_small_loses_a_motion(monkeypatch: pytest.MonkeyPatch, f
     assert lost == (factor < 1.0)
 
 
+@pytest.mark.long
 def test_the_checker_refuses_a_proof_with_boxes_too_narrow(monkeypatch: pytest.MonkeyPatch) -> None:
     problem = problem_of([[0.0], [0.7], [0.9], [0.1]], 1e6, 1e6, 1.0)
     honest = free_form_bound(problem, gap=1e-3, time_limit=10.0, record=True)
@@ -181,6 +182,7 @@ def test_with_jerk_alone_time_is_the_cube_root_of_the_size(step: float) -> None:
     assert bound.gap <= 1e-4
 
 
+@pytest.mark.long
 @given(
     seed=st.integers(0, 10**6),
     step=st.floats(-6.0, -1.0),

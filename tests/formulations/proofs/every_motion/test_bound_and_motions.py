@@ -12,6 +12,7 @@ from hypothesis import strategies as st
 from formulations import REFERENCES, Problem, check, free_form_bound, load
 
 
+@pytest.mark.long
 @given(problem=problems(segments=st.integers(1, 4), reach=(-3.0, 1.0), limited=("va", "vj", "vaj")))
 @settings(max_examples=12)
 def test_it_is_below_stop_and_go_and_its_own_motion(problem: Problem) -> None:

@@ -56,7 +56,7 @@ def test_without_parts_the_bound_is_not_tight(monkeypatch: pytest.MonkeyPatch) -
     assert float.fromhex(certificate["seconds"]) < 0.97 * CLOSED_FORM
 
 
-@pytest.mark.slow
+@pytest.mark.long
 @pytest.mark.parametrize("seed", [85, 88])
 def test_random_problems_that_pass_a_waypoint_twice_are_tight(seed: int) -> None:
     problem = drawn_problem("given ends", seed)

@@ -40,6 +40,7 @@ def test_a_window_proves_no_more_than_the_whole_program(middle):
             assert found.bound > float(np.minimum(*(cost * side for side in frame.box.T)).sum()) - 1e-9
 
 
+@pytest.mark.long
 @pytest.mark.parametrize("seed", [0, 1])
 def test_the_certificate_of_a_bound_by_windows_is_proved_again(monkeypatch, seed):
     problem, used = walk(seed), []
