@@ -19,7 +19,7 @@ import matplotlib.pyplot as plt
 import numpy as np
 from matplotlib.axes import Axes
 from matplotlib.figure import Figure
-from matplotlib.ticker import FuncFormatter
+from matplotlib.ticker import FuncFormatter, LogLocator
 
 from compare.engines import workers
 from compare.report.style import BLACK, BLUE, GREEN, GREY, ORANGE, VERMILION, styled
@@ -287,6 +287,7 @@ def figure(rows: list[ScaleAnswer], summary: list[dict[str, Any]]) -> Figure:
     if np.isfinite(rows[-1].memory):
         least, most = (pick(row.memory for row in rows) / _MEGABYTE for pick in (min, max))
         right.set_ylim(0.2 * least, 2.0 * most)
+        right.yaxis.set_major_locator(LogLocator(subs=(1.0, 2.0, 5.0)))
     return drawn
 
 

@@ -22,7 +22,7 @@ from formulations.problem.arrays import Array
 from formulations.proofs.every_motion.events import Event, EventLog, rows_of
 from formulations.proofs.every_motion.relaxation.boxes import Boxes
 from formulations.proofs.every_motion.relaxation.cuts import Cuts
-from formulations.proofs.every_motion.relaxation.in_band import least_time
+from formulations.proofs.every_motion.relaxation.in_band import least_time, long_chain
 from formulations.proofs.every_motion.relaxation.linear_program import LinearProgram, LPSolution
 from formulations.proofs.every_motion.relaxation.propagation import propagate
 from formulations.proofs.every_motion.relaxation.relaxed_problem import DOWN, RelaxedProblem
@@ -162,7 +162,12 @@ class PartedProof:
         return Frame(self.relaxed, boxes, self.units)
 
     def _split(self, part: Part) -> list[Part] | None:
-        """Split the widest duration; None where that proves less, as at the end of the time."""
+        """Split the widest duration; None where that proves less, as at the end of the time.
+
+        Of a long chain every duration is as wide, and no split of one of them gains anything.
+        """
+        if long_chain(self.frame(part.boxes)):
+            return None
         low, high = part.boxes.durations[: self.relaxed.n_segments].T
         k = int(np.argmax(high - low))
         at = 0.5 * float(low[k] + high[k])

@@ -39,6 +39,7 @@ def fake(monkeypatch: pytest.MonkeyPatch, name: str, problem: Problem = TINY) ->
     return beside([row, replace(OURS, problem=problem.name)])[0]
 
 
+@pytest.mark.long
 def test_a_program_that_crashes_fails_or_hangs_has_a_row(monkeypatch: pytest.MonkeyPatch) -> None:
     assert (fake(monkeypatch, "crash").status, fake(monkeypatch, "crash").reason) == (
         "crashed", "ended by SIGABRT",

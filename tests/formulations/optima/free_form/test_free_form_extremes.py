@@ -12,7 +12,9 @@ from formulations import Limits, Problem, check, free_form, free_form_bound
 POINTS = np.cumsum(np.random.default_rng(0).uniform(-0.6, 0.6, (5, 3)), axis=0)
 
 
-@pytest.mark.parametrize("size", [1.0, 1e3, 1e6])
+@pytest.mark.parametrize(
+    "size", [1.0, *(pytest.param(size, marks=pytest.mark.long) for size in (1e3, 1e6))]
+)
 @pytest.mark.parametrize(
     "limits", [(1e-12, 8.0, 60.0), (2.0, 1e12, 1e15), ([1e-12, 1.0, 1.0], 8.0, 1e-9)], ids=str
 )

@@ -16,7 +16,7 @@ from formulations.proofs.tool.least_times import tool_least_times, with_tool_tim
 from formulations.proofs.tool.passing import places_passed
 
 
-@pytest.mark.parametrize("lever", [0.25, 0.8])
+@pytest.mark.parametrize("lever", [pytest.param(0.25, marks=pytest.mark.long), 0.8])
 def test_a_hinge_has_the_velocity_limit_s_over_its_lever(lever: float) -> None:
     speed = 0.6 * lever  # 0.6 rad/s, below its limit of 2 rad/s
     mine = free_form(hinge(lever, Conditions(tool_speed=speed)), tolerance=1e-4)

@@ -88,7 +88,8 @@ def test_few_segments_and_cycles_are_no_long_chain():
         assert in_band.long_chain(program_of(walk(0, steps), 10.0).frame) is wanted
 
 
-@pytest.mark.parametrize("seed", [5, pytest.param(6, marks=pytest.mark.long)])
+@pytest.mark.long
+@pytest.mark.parametrize("seed", [5, 6])
 def test_a_wide_gap_is_closed_to_the_one_asked_for(seed):
     problem = walk(seed, 12, 3, 0.2)
     upper = free_form(problem, tolerance=1e-5).seconds
@@ -112,7 +113,8 @@ def many_zones(seed):
     return Problem(waypoints, limits, conditions=zones)
 
 
-@pytest.mark.parametrize("seed", [pytest.param(0, marks=pytest.mark.long), 1])
+@pytest.mark.long
+@pytest.mark.parametrize("seed", range(2))
 def test_a_long_chain_in_zones_is_proved_and_certified(seed):
     problem = many_zones(seed)
     upper = free_form(problem, tolerance=1e-5).seconds
