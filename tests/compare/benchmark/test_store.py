@@ -5,8 +5,10 @@ from __future__ import annotations
 import sqlite3
 import subprocess
 import sys
+from contextlib import closing
 from dataclasses import replace
 from pathlib import Path
+from typing import Any
 
 import numpy as np
 import pytest
@@ -16,6 +18,7 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from compare.benchmark.grade import Graded, Run, Trace, grade
+from compare.benchmark.records.database import runs
 from compare.benchmark.records.database.codec import packed, unpacked
 from compare.benchmark.records.database.makers import maker_of
 from compare.benchmark.records.database.schema import MAKER_COLUMNS, RUN_COLUMNS
@@ -233,3 +236,22 @@ def test_two_processes_write_one_store_at_once(tmp_path: Path) -> None:
     rows = Store(tmp_path).rows()
     assert sorted(row.seed for row in rows) == list(range(100))
     assert len(dict(Store(tmp_path).traces())) == 100
+
+
+def test_rows_that_another_process_writes_meanwhile_are_not_half_seen(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    """A row of a new maker, written while the makers are read, is seen with its maker or not at all."""
+    store = stored(tmp_path, 2)
+    read = runs.makers
+
+    def and_then_another_writes(connection: sqlite3.Connection) -> dict[int, dict[str, Any]]:
+        found = read(connection)
+        monkeypatch.setattr(runs, "makers", read)
+        with closing(Store(tmp_path)) as other:
+            other.add(graded(load("sr4c"), 4.7, "shared", "pso", 0, 30))
+        return found
+
+    monkeypatch.setattr(runs, "makers", and_then_another_writes)
+    assert len(store.rows(every=True)) == 2
+    assert len(store.rows(every=True)) == 3

@@ -147,12 +147,14 @@ def numbered_rows(connection: sqlite3.Connection, plan: int | None) -> Iterator[
     maker : int
     row : Row
     """
+    # the rows are asked for first: as long as they are read, no table shows what others write meanwhile
+    rows = connection.execute(
+        f"SELECT r.maker, r.seed, r.machine, {_R_NAMES} {_selected(plan)}", _arguments(plan)
+    )
     shared = makers(connection)
     machines = dict(connection.execute("SELECT id, machine FROM machines"))
     reads = [(name, decoder(name)) for name in RUN_COLUMNS]
-    for maker, seed, machine, *values in connection.execute(
-        f"SELECT r.maker, r.seed, r.machine, {_R_NAMES} {_selected(plan)}", _arguments(plan)
-    ):
+    for maker, seed, machine, *values in rows:
         found = {}
         for (name, read), value in zip(reads, values, strict=True):
             try:
