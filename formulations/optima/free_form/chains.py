@@ -19,7 +19,39 @@ from formulations.proofs.every_motion.attaining_motion.motion import connect, co
 from formulations.proofs.every_motion.attaining_motion.reach_rows import ChainPoint
 from formulations.proofs.every_motion.attaining_motion.states import MARGIN, WaypointStates
 from formulations.proofs.every_motion.closed_forms import stop_and_go_durations
+from formulations.proofs.every_motion.relaxation.kept_waypoints import gaps
 from formulations.proofs.every_motion.relaxation.relaxed_problem import RelaxedProblem
+
+
+def is_plain(task: ConditionedProblem) -> bool:
+    """Say whether only waypoints are asked for, under limits equal in both directions.
+
+    Parameters
+    ----------
+    task : ConditionedProblem
+
+    Returns
+    -------
+    bool
+    """
+    return task.conditions.none and task.problem.plain
+
+
+def least_ways(task: ConditionedProblem) -> Array:
+    """Compute how far the moving joints have to go at least on each segment.
+
+    Parameters
+    ----------
+    task : ConditionedProblem
+
+    Returns
+    -------
+    Array, shape (S, n) [rad]
+        0 where the zones of a joint at both ends meet.
+    """
+    first = np.arange(task.n_segments)
+    legs = np.stack([first, first + 1], axis=1)
+    return np.asarray(gaps(task.boxes[:, task.moving], legs).max(axis=-1))
 
 
 class PlainChain:
@@ -103,7 +135,7 @@ class ConditionedChain:
         jerk = np.where(np.isfinite(jerk), jerk, 0.0)
         low, high = np.moveaxis(task.boxes[:, joints], -1, 0)
         self.middles = 0.5 * (low + high)
-        least = (np.maximum(low[1:] - high[:-1], low[:-1] - high[1:]) / v).max(axis=1)
+        least = (least_ways(task) / v).max(axis=1)
         self.task = ChainTask(
             np.diff(self.middles, axis=0),
             np.where(high > low, np.minimum(high - self.middles, self.middles - low), 0.0),

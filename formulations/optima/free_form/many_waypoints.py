@@ -16,11 +16,10 @@ import numpy as np
 from formulations.deadlines import Deadline
 from formulations.motion.trajectory import Trajectory
 from formulations.motion.verdict import Verdict
-from formulations.optima.free_form.chains import ConditionedChain, PlainChain
+from formulations.optima.free_form.chains import ConditionedChain, PlainChain, is_plain, least_ways
 from formulations.optima.free_form.ending import SearchStatus
 from formulations.optima.free_form.nlp.conditioned import ConditionedProblem
 from formulations.optima.free_form.stage import Stage
-from formulations.problem.arrays import Array
 from formulations.proofs.every_motion.attaining_motion.state_descent import ChainDescent
 
 MANY = 40  # segments from which this search is the faster one, by measurement: 1 s against 6 s there
@@ -57,17 +56,11 @@ def has_many_waypoints(task: ConditionedProblem) -> bool:
     S, n = task.n_segments, len(task.moving)
     if S < MANY or S * n < _WIDE or task.group(1):
         return False
-    if task.conditions.none and task.problem.plain:
+    if is_plain(task):
         return True
     both_ways = all(np.array_equal(-each[..., 0], each[..., 1]) for each in task.intervals)
     others = task.demands.cyclic or task.windows or task.conditions.ties_joints
-    return both_ways and task.stretchable and not others and bool(_gaps(task).any(axis=1).all())
-
-
-def _gaps(task: ConditionedProblem) -> Array:
-    """How far the moving joints have to go at least, (S, n) [rad]."""
-    low, high = np.moveaxis(task.boxes[:, task.moving], -1, 0)
-    return np.asarray(np.maximum(low[1:] - high[:-1], low[:-1] - high[1:]).clip(0.0))
+    return both_ways and task.stretchable and not others and bool(least_ways(task).any(axis=1).all())
 
 
 def is_final(found: FoundInLinearTime, task: ConditionedProblem) -> bool:
@@ -111,8 +104,7 @@ def found_in_linear_time(
         None where the check refuses the motion: it may leave the position limits between waypoints.
     """
     clock = time.perf_counter()
-    plain = task.conditions.none and task.problem.plain
-    chain = PlainChain(task.problem) if plain else ConditionedChain(task)
+    chain = PlainChain(task.problem) if is_plain(task) else ConditionedChain(task)
     descent = ChainDescent(chain.task, chain.start, chain.path, deadline)
     start = "smooth timing" if descent.dense else "stop and go"
     stages = [Stage(start, descent.seconds + chain.waits, "", time.perf_counter() - clock)]
